@@ -1,0 +1,248 @@
+"""The command `dolfinrod`: solve a scene file, say what it holds, verify the models.
+
+Exit codes: 0 solved, 1 not converged (what had converged is written), 2 bad input (nothing is written).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from dolfinrod.output import versions, write
+from dolfinrod.progress import ProgressLine
+from dolfinrod.result import NotConverged
+from dolfinrod.scene import Planar, Scene, SceneError, Spatial, detect, toml
+
+if TYPE_CHECKING:
+    from dolfinrod.result import Result, StepLog
+
+__all__ = ["main"]
+
+SOLVED, NOT_CONVERGED, BAD_INPUT = 0, 1, 2
+KINEMATICS = {"planar": Planar, "spatial": Spatial}
+MODELS = {"continuum": ("continuum",), "discrete": ("discrete",), "both": ("continuum", "discrete")}
+# What the discrete model of the paper leaves no choice in.
+CONTINUUM_ONLY = ("degree", "kinematics")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command.
+
+    Args:
+        arguments: Words after `dolfinrod`; None: those of the process.
+
+    Returns:
+        Exit code of the process.
+    """
+    options = _parser().parse_args(arguments)
+    try:
+        return options.command(options)
+    except SceneError as error:
+        _complain(str(error))
+        return BAD_INPUT
+
+
+def run(options: argparse.Namespace) -> int:
+    """Solve a scene with the models asked for, write and print what was found."""
+    scene, chosen = _read(options.scene)
+    chosen |= {key: getattr(options, key) for key in ("elements", *CONTINUUM_ONLY) if getattr(options, key) is not None}
+    models = MODELS[options.model]
+    if "continuum" not in models:
+        for key in CONTINUUM_ONLY:
+            if getattr(options, key) is not None:
+                raise SceneError(f"--{key} belongs to the continuum model, but --model is {options.model}")
+    _check_writable(options.out)
+    # Every model first, files after: input that one of them refuses leaves nothing written.
+    outcomes = {model: _solve(model, scene, chosen) for model in models}
+    if _is_first_rank():
+        for model, (result, failure) in outcomes.items():
+            print(_summary(model, result))
+            if options.out is not None:
+                folder = options.out / model if len(models) > 1 else options.out
+                write(result, folder, failure=failure)
+        if options.out is not None:
+            (options.out / "scene.toml").write_text(toml.dumps(scene, chosen), encoding="utf-8")
+            print(f"written to {options.out}{os.sep}")
+    failures = {model: failure for model, (_, failure) in outcomes.items() if failure is not None}
+    for model, failure in failures.items():
+        _complain(f"{model}: {failure}")
+    return NOT_CONVERGED if failures else SOLVED
+
+
+def info(options: argparse.Namespace) -> int:
+    """Say what is installed and what a scene holds."""
+    lines = [f"{name} {version}" for name, version in (versions() | _petsc()).items()]
+    if options.scene is not None:
+        lines += ["", *_contents(*_read(options.scene))]
+    if _is_first_rank():
+        print("\n".join(lines))
+    return SOLVED
+
+
+def verify(options: argparse.Namespace) -> int:
+    """Solve the verification cases with both models and report."""
+    from verification.__main__ import main as report
+
+    return report(["--quick"] if options.quick else [])
+
+
+class _Parser(argparse.ArgumentParser):
+    """Complains in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        _complain(f"{message} (see {self.prog} --help)")
+        self.exit(BAD_INPUT)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="dolfinrod", description="Elastic rods in space, solved by two independent models.")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    command = commands.add_parser("run", help="solve a scene file", description=run.__doc__)
+    command.set_defaults(command=run)
+    command.add_argument("scene", metavar="SCENE.toml", type=Path)
+    command.add_argument("--model", choices=MODELS, default="continuum", help="default: %(default)s")
+    command.add_argument("--elements", type=_counts, metavar="N", help="elements of every rod, or N,M,... one a rod")
+    command.add_argument("--degree", type=int, metavar="K", help="polynomial degree of the continuum model, 1 to 5")
+    command.add_argument("--kinematics", choices=KINEMATICS, help="default: planar where the scene lies in one plane")
+    command.add_argument("--out", type=Path, metavar="DIR", help="write result.json, rod-*.csv and scene.toml here")
+    command = commands.add_parser("info", help="versions; what a scene holds", description=info.__doc__)
+    command.set_defaults(command=info)
+    command.add_argument("scene", metavar="SCENE.toml", type=Path, nargs="?")
+    command = commands.add_parser("verify", help="errors and times of both models", description=verify.__doc__)
+    command.set_defaults(command=verify)
+    command.add_argument("--quick", action="store_true", help="two resolutions a case")
+    return parser
+
+
+def _counts(text: str) -> int | list[int]:
+    """`16` or `16,24`."""
+    try:
+        numbers = [int(word) for word in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"must be a whole number or one a rod, such as 16 or 16,24, got {text}"
+        ) from None
+    return numbers if len(numbers) > 1 else numbers[0]
+
+
+def _read(path: Path) -> tuple[Scene, dict[str, Any]]:
+    """Scene and solve options of a file; whatever is wrong with it as SceneError."""
+    try:
+        scene, chosen = toml.load(path)
+        _check_options(chosen)
+    except OSError as error:
+        raise SceneError(f"{path} cannot be read: {error.strerror}") from error
+    except SceneError as error:
+        raise SceneError(f"{path}: {error}") from error
+    return scene, chosen
+
+
+def _check_options(chosen: Mapping[str, Any]) -> None:
+    """The table `solve` of a file says nothing that would be ignored."""
+    known = ("elements", *CONTINUUM_ONLY)
+    for key, value in chosen.items():
+        if key not in known:
+            raise SceneError(f"solve.{key} is unknown; known are {', '.join(known)}")
+        if key == "kinematics" and value not in KINEMATICS:
+            raise SceneError(f"solve.kinematics must be {' or '.join(KINEMATICS)}, got {value!r}")
+
+
+def _check_writable(folder: Path | None) -> None:
+    """Find out before a long solve, not after it."""
+    if folder is None:
+        return
+    ground = next(place for place in (folder, *folder.absolute().parents) if place.exists())
+    if not (ground.is_dir() and os.access(ground, os.W_OK)):
+        raise SceneError(f"--out {folder} cannot be written: {ground} is no folder with permission to write")
+
+
+def _solve(model: str, scene: Scene, options: Mapping[str, Any]) -> tuple[Result, NotConverged | None]:
+    """Result of one model, and the failure where the end was not reached."""
+    line = ProgressLine(sys.stderr, name=model) if _is_first_rank() and sys.stderr.isatty() else None
+    solver = _continuum if model == "continuum" else _discrete
+    try:
+        return solver(scene, options, line), None
+    except NotConverged as failure:
+        return failure.result, failure
+    finally:
+        if line is not None:
+            line.clear()
+
+
+def _continuum(scene: Scene, options: Mapping[str, Any], progress: Callable[[StepLog, float], None] | None) -> Result:
+    from dolfinrod.continuum import solve
+
+    kinematics = options.get("kinematics")
+    chosen = {**options, "kinematics": kinematics if kinematics is None else KINEMATICS[kinematics]()}
+    return solve(scene, **chosen, progress=progress)
+
+
+def _discrete(scene: Scene, options: Mapping[str, Any], progress: Callable[[StepLog, float], None] | None) -> Result:
+    from discrete import solve
+
+    chosen = {key: value for key, value in options.items() if key not in CONTINUUM_ONLY}
+    return solve(scene, **chosen, progress=progress)
+
+
+def _summary(model: str, result: Result) -> str:
+    """Outcome, cost and tip."""
+    s, f = result.statistics, result.formulation
+    end = "converged" if result.converged else "not converged"
+    x, y, z = result.tip
+    return (
+        f"{model}: {end} at t = {result.t[-1]:.6g}; {f.kinematics}, {s.dofs} unknowns; {s.load_steps} load steps, "
+        f"{s.newton_iterations} Newton iterations, {1e3 * s.seconds_solve:.3g} ms\n"
+        f"  tip ({x:.10g}, {y:.10g}, {z:.10g}) m"
+    )
+
+
+def _contents(scene: Scene, options: Mapping[str, Any]) -> list[str]:
+    """Rods, supports, loads and kinematics of a scene, one line each."""
+    found = detect(scene)
+    plane = f", normal {_vector(found.normal)}" if isinstance(found, Planar) else ""
+    return [
+        *(
+            f"rods[{k}]: {type(rod.shape).__name__}, length {rod.length:.6g} m, from {_vector(rod.centerline(0.0))} m "
+            f"to {_vector(rod.centerline(rod.length))} m"
+            for k, rod in enumerate(scene.rods)
+        ),
+        *(f"supports[{i}]: {support}" for i, support in enumerate(scene.supports)),
+        *(f"loads[{i}]: {load}" for i, load in enumerate(scene.loads)),
+        f"motion: {scene.motion}",
+        f"kinematics: {type(found).__name__.lower()}{plane}",
+        *(f"solve: {key} = {value}" for key, value in options.items()),
+    ]
+
+
+def _vector(values: Any) -> str:
+    return "(" + ", ".join(f"{value:.6g}" for value in values) + ")"
+
+
+def _petsc() -> dict[str, str]:
+    """Version and scalar type of PETSc and the MPI library under it."""
+    from mpi4py import MPI
+    from petsc4py import PETSc
+
+    version = ".".join(str(part) for part in PETSc.Sys.getVersion())
+    library = MPI.Get_library_version().split(",")[0].rstrip("\0\n")
+    return {"PETSc": f"{version} ({PETSc.ScalarType.__name__})", "MPI": library}
+
+
+def _is_first_rank() -> bool:
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD.rank == 0
+
+
+def _complain(message: str) -> None:
+    """One line on stderr, from one rank."""
+    if _is_first_rank():
+        print("dolfinrod:", " ".join(message.split()), file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,117 @@
+"""Rods cut into elements: mesh, spaces, compiled forms and numbering; made once for a topology, used for any values."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.continuum import backend
+from dolfinrod.continuum.forms import forms_of
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.kinematics import Kinematics
+
+__all__ = ["Discretization", "Values"]
+
+
+@dataclass(frozen=True)
+class Values:
+    """Everything of a scene that enters the forms as numbers, by local cell, in units of L, EI/L² and EI/L.
+
+    Args:
+        ends: Arc length of the element ends, shape (cells, 2).
+        r_0: Stress-free centreline at the nodes, shape (cells, k + 1, d).
+        C_n: Compliance of axial and shear strain, stress-free directions in space, shape (cells, points, d, d).
+        C_m: Compliance of twist and bending, likewise, shape (cells, points, n_spin, n_spin).
+    """
+
+    ends: NDArray[np.float64]
+    r_0: NDArray[np.float64]
+    C_n: NDArray[np.float64]
+    C_m: NDArray[np.float64]
+
+
+class Discretization:
+    """Spaces, forms and numbering of rods with given numbers of elements.
+
+    Args:
+        comm: Communicator.
+        kinematics: Spatial or planar.
+        degree: Degree k of centreline and rotation; resultants have k − 1.
+        elements: Number of elements of each rod.
+
+    Attributes:
+        dofs: Local numbers of each field, name → (cells, nodes, components).
+        cell: For each local cell, its number when all rods are lined up.
+        n_owned_cells: Cells this rank owns.
+        seconds_compile: Time for making or loading forms [s].
+    """
+
+    def __init__(self, comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...]) -> None:
+        self.comm, self.kinematics, self.degree, self.elements = comm, kinematics, degree, elements
+        nodes = [np.linspace(0.0, 1.0, n + 1) for n in elements]
+        started = time.perf_counter()
+        self.forms = forms_of(comm, kinematics, degree)
+        self.seconds_compile = time.perf_counter() - started
+        self.mesh, self.cell = backend.interval_mesh(comm, nodes)
+        self.n_owned_cells = backend.n_owned_cells(self.mesh)
+        self.nodes = backend.lagrange_nodes(degree)
+        self.points = backend.quadrature_points(2 * degree)
+        self._make_spaces()
+        self._bind_forms()
+        index_map = self.space.dofmap.index_map
+        self.n_owned, self.n_dofs = int(index_map.size_local), int(index_map.size_global)
+        self.dofs = {f: backend.cell_dofs(self.space, i) for i, f in enumerate(self.kinematics.fields)}
+
+    def _make_spaces(self) -> None:
+        elements = self.forms.elements
+        self.space = backend.space(self.mesh, elements["x"])
+        self.x = backend.function(self.space)
+        self.r_0, self.C_n, self.C_m, self.f = (
+            backend.function(backend.space(self.mesh, elements[name])) for name in ("r_0", "C_n", "C_m", "f")
+        )
+
+    def _bind_forms(self) -> None:
+        functions = {"x": self.x, "r_0": self.r_0, "C_n": self.C_n, "C_m": self.C_m, "f": self.f}
+        values = {self.forms.coefficients[name]: function for name, function in functions.items()}
+        self.residual = backend.BoundForm(self.forms.residual, [self.space], values)
+        self.tangent = backend.BoundForm(self.forms.tangent, [self.space, self.space], values)
+        self.line_load = backend.BoundForm(self.forms.line_load, [self.space], values)
+
+    def owned_nodes(self, field: str) -> NDArray[np.int32]:
+        """Dofs of the distinct nodes of a field that this rank owns, shape (nodes, components)."""
+        nodes = self.dofs[field].reshape(-1, self.dofs[field].shape[2])
+        nodes = nodes[np.unique(nodes[:, 0], return_index=True)[1]]
+        return nodes[nodes[:, 0] < self.n_owned]
+
+    def set(self, values: Values) -> None:
+        """Give the forms their numbers; nothing is compiled or allocated."""
+        geometry = self.mesh.geometry
+        geometry.x[geometry.dofmap.array.reshape(-1, 2), 0] = values.ends
+        self.r_0.x.array[backend.cell_dofs(self.r_0.function_space)] = values.r_0
+        for function, C in ((self.C_n, values.C_n), (self.C_m, values.C_m)):
+            i, j = np.triu_indices(C.shape[-1])
+            function.x.array[backend.cell_dofs(function.function_space)] = C[..., i, j]
+
+    def assembled_residual(self) -> NDArray[np.float64]:
+        """Residual of the forms at the current state, rows owned by this rank, summed over all ranks."""
+        b = backend.function(self.space)
+        self.residual.add_vector(b.x.array)
+        backend.sum_to_owners(b)
+        return b.x.array[: self.n_owned]
+
+    def line_loads(self, f: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+        """Local residual vectors −∫ f·δr ds of dead line loads, one for each field in `f`."""
+        vectors = []
+        for field in f:
+            self.f.x.array[backend.cell_dofs(self.f.function_space)] = field
+            b = np.zeros_like(self.x.x.array)
+            self.line_load.add_vector(b)
+            vectors.append(b)
+        return vectors

@@ -1,0 +1,164 @@
+"""Newton's method inside PETSc's SNES, with section rotations limited in each iteration.
+
+Rotations are what makes rods nonlinear: with them known, r and N follow from linear equations. So every iteration
+turns the sections by at most `LARGEST_TURN`, while r and N take their full increment; m, which follows the turn of
+the sections by elasticity, is held back with them (a full m on a half-turned rod feeds motion out of the plane).
+No residual line search: on the way to equilibrium the residual has to grow.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from mpi4py import MPI
+from petsc4py import PETSc
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.problem import Problem
+
+__all__ = ["Newton", "Outcome"]
+
+# Largest turn of a section in one iteration [rad]: beyond it the linearised rotation says nothing any more.
+LARGEST_TURN = 2.0
+# Increments relative to the unknowns (and to 1 rad, L, EI/L², EI/L) at which an iteration has converged.
+TOLERANCE = 1e-9
+# Iterations after which a load step is given up; a rod that winds up five turns takes about twenty.
+MOST_ITERATIONS = 50
+
+REASONS = {
+    PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "the residual is not a number",
+    PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: f"Newton's method did not settle in {MOST_ITERATIONS} iterations",
+    PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE: "the tangent is singular: something is free to move, or a load is critical",
+    PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_DOMAIN: "the residual is not a number",
+}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How one solve ended.
+
+    Args:
+        converged: Whether the increments became small enough.
+        iterations: Newton iterations done.
+        residual: Norm of the last residual in working units.
+        reason: The SNES reason in words.
+    """
+
+    converged: bool
+    iterations: int
+    residual: float
+    reason: str
+
+
+class Newton:
+    """SNES for one problem: its loop, linear solver, monitors and reasons, our step.
+
+    Args:
+        problem: Residual, tangent and state.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        d = problem.discretization
+        self.factorizations = 0
+        self._q = d.owned_nodes("q")
+        self._m = d.owned_nodes("m").ravel()
+        self._others = [*(d.owned_nodes(f).ravel() for f in ("r", "N")), self._m]
+        self._A = d.tangent.matrix()
+        self._A.setOption(PETSc.Mat.Option.KEEP_NONZERO_PATTERN, True)
+        self._X = d.x.vector.duplicate()
+        self._size = np.inf
+        self.snes = self._make_snes(d.comm)
+
+    def _make_snes(self, comm: MPI.Comm) -> PETSc.SNES:
+        snes = PETSc.SNES().create(comm)
+        snes.setOptionsPrefix("rod_")
+        snes.setType(PETSc.SNES.Type.NEWTONLS)
+        snes.setFunction(self._residual, self._X.duplicate())
+        snes.setJacobian(self._tangent, self._A)
+        snes.setLineSearchPreCheck(self._limit)
+        snes.setConvergenceTest(self._test)
+        ksp = snes.getKSP()
+        ksp.setType(PETSc.KSP.Type.PREONLY)
+        ksp.getPC().setType(PETSc.PC.Type.LU)
+        # Both pivot, as zero compliances and multipliers need: KLU is quick on one rank, MUMPS works on many.
+        ksp.getPC().setFactorSolverType("klu" if comm.size == 1 else "mumps")
+        options = {"rod_snes_linesearch_type": "basic"}
+        database = PETSc.Options()
+        for name, value in options.items():
+            database[name] = value
+        snes.setFromOptions()
+        for name in options:
+            database.delValue(name)
+        return snes
+
+    def solve(self) -> Outcome:
+        """Equilibrium at the problem's pseudo-time, from the problem's state; on failure the state is lost."""
+        self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
+        self._size = np.inf
+        self.snes.solve(None, self._X)
+        self._take(self._X)
+        iterations, reason = self.snes.getIterationNumber(), self.snes.getConvergedReason()
+        self.factorizations += iterations
+        words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
+        return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words)
+
+    def _take(self, X: PETSc.Vec) -> None:
+        """Make X the problem's state."""
+        X.ghostUpdate(PETSc.InsertMode.INSERT, PETSc.ScatterMode.FORWARD)
+        with X.localForm() as x:
+            self.problem.x[:] = x.array_r
+
+    def _residual(self, snes: PETSc.SNES, X: PETSc.Vec, F: PETSc.Vec) -> None:
+        self._take(X)
+        with F.localForm() as f:
+            b = f.array
+            b[:] = 0.0
+            self.problem.add_residual(b)
+        F.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
+        self.problem.balance_multipliers(F.array)
+        self.problem.clear_held(F.array)
+
+    def _tangent(self, snes: PETSc.SNES, X: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
+        self.problem.assemble_tangent(P)
+
+    def _limit(self, X: PETSc.Vec, Y: PETSc.Vec) -> bool:
+        """Replace the Newton step Y (x − Y is next) by one that stays on the manifold and turns at most so far."""
+        kin, comm = self.problem.kinematics, self.problem.discretization.comm
+        x, y = X.array_r, Y.array
+        q = x[self._q]
+        θ = kin.increment(q, -y[self._q])
+        turn = comm.allreduce(float(np.sqrt((θ * θ).sum(axis=1).max(initial=0.0))), op=MPI.MAX)
+        if turn > LARGEST_TURN:
+            θ *= LARGEST_TURN / turn
+            y[self._m] *= LARGEST_TURN / turn
+        y[self._q] = q - kin.turn(q, θ)
+        sizes = [size for dofs in self._others for size in _sizes(x[dofs], y[dofs])]
+        largest = comm.allreduce(np.array(sizes), op=_MAX)
+        self._size = max(turn, *(largest[::2] / np.maximum(largest[1::2], 1.0)))
+        return True
+
+    def _test(self, snes: PETSc.SNES, iteration: int, norms: tuple[float, float, float]) -> int:
+        reasons = PETSc.SNES.ConvergedReason
+        if not np.isfinite(norms[2]) or np.isnan(self._size):
+            return reasons.DIVERGED_FNORM_NAN
+        if iteration > 0 and self._size < TOLERANCE:
+            return reasons.CONVERGED_SNORM_RELATIVE
+        return reasons.DIVERGED_MAX_IT if iteration >= MOST_ITERATIONS else reasons.ITERATING
+
+
+def _sizes(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float]:
+    """Largest increment and largest new value."""
+    return float(np.abs(y).max(initial=0.0)), float(np.abs(x - y).max(initial=0.0))
+
+
+def _largest(a: NDArray[np.float64], b: NDArray[np.float64], _: object = None) -> NDArray[np.float64]:
+    return np.maximum(a, b)
+
+
+_MAX = MPI.Op.Create(_largest, commute=True)
+

@@ -1,0 +1,99 @@
+"""Where a scene lies and in which units it is solved: lengths in L, forces in EI/L², moments in EI/L."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.scene import Planar, SceneError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from dolfinrod.scene import Scene, Spatial
+
+__all__ = ["Placement"]
+
+AXES = {"x": 0, "y": 1, "z": 2}
+# A direction counts as lying in a plane, or along its normal, up to this sine.
+ALIGNED = 1e-9
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Working coordinates of a scene.
+
+    Args:
+        origin: Point of space at the working origin [m].
+        axes: Working directions as columns, shape (3, d).
+        spin_axes: Directions of the spin components as columns, shape (3, n_spin).
+        length: Unit of length L, the longest rod [m].
+        stiffness: Unit of bending stiffness EI, the largest in the scene [N m²].
+    """
+
+    origin: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    spin_axes: NDArray[np.float64]
+    length: float
+    stiffness: float
+
+    @classmethod
+    def of(cls, scene: Scene, kinematics: Planar | Spatial) -> Placement:
+        """Units and directions for `scene`; in a plane the directions follow supports that hold only one of them.
+
+        Raises:
+            SceneError: A support holds one direction askew to those that other supports hold.
+        """
+        length = max(rod.length for rod in scene.rods)
+        stiffness = max(max(rod.section.EI) for rod in scene.rods)
+        origin = scene.rods[0].centerline(np.zeros(1))[0]
+        if not isinstance(kinematics, Planar):
+            return cls(origin, np.eye(3), np.eye(3), length, stiffness)
+        normal = np.asarray(kinematics.normal, dtype=float)
+        normal = normal / np.linalg.norm(normal)
+        e1 = _single_direction(scene, normal)
+        if e1 is None:
+            e1 = scene.rods[0].frames(np.zeros(1))[0, :, 0]
+        e1 = e1 - (e1 @ normal) * normal
+        e1 /= np.linalg.norm(e1)
+        axes = np.stack([e1, np.cross(normal, e1)], axis=1)
+        return cls(origin, axes, normal[:, None], length, stiffness)
+
+    @property
+    def force(self) -> float:
+        """Unit of force EI/L² [N]."""
+        return self.stiffness / self.length**2
+
+    @property
+    def moment(self) -> float:
+        """Unit of moment EI/L [N m]."""
+        return self.stiffness / self.length
+
+    def points(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points of space in working coordinates, (..., 3) → (..., d)."""
+        return (x - self.origin) @ self.axes / self.length
+
+    def to_space(self, r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Working coordinates back to space, (..., d) → (..., 3) [m]."""
+        return self.origin + self.length * r @ self.axes.T
+
+
+def _single_direction(scene: Scene, normal: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """The one in-plane direction that some support holds alone, if any."""
+    found: NDArray[np.float64] | None = None
+    for number, support in enumerate(scene.supports):
+        held = [np.eye(3)[AXES[a]] for a in sorted(support.held()) if a in AXES]
+        rows = np.array([e - (e @ normal) * normal for e in held]).reshape(-1, 3)
+        if np.linalg.matrix_rank(rows, tol=ALIGNED) != 1:
+            continue
+        d = rows[np.argmax(np.linalg.norm(rows, axis=1))]
+        d = d / np.linalg.norm(d)
+        if found is not None and ALIGNED < abs(found @ d) < 1.0 - ALIGNED:
+            raise SceneError(
+                f"supports[{number}] holds one direction of the plane that is askew to the one another support "
+                "holds; solve with kinematics=Spatial()"
+            )
+        found = d
+    return found

@@ -1,0 +1,205 @@
+"""A scene as a system of equations: residual and tangent of its equilibrium at a pseudo-time, in working units."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from petsc4py import PETSc
+
+from dolfinrod.continuum import backend
+from dolfinrod.continuum.constraints import Constraints
+from dolfinrod.continuum.discretization import Discretization, Values
+from dolfinrod.continuum.loading import line_loads, point_terms
+from dolfinrod.continuum.nodes import element_ends
+from dolfinrod.scene.history import factor
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.placement import Placement
+    from dolfinrod.continuum.terms.point import PointTerm
+    from dolfinrod.scene import Scene
+
+__all__ = ["Problem"]
+
+# Two places of one rod closer than this fraction of the unit of length are one node.
+SAME_PLACE = 1e-9
+
+
+class Problem:
+    """The one owner of the state while a scene is solved.
+
+    Args:
+        scene: What is posed.
+        discretization: Elements, spaces and forms.
+        placement: Working coordinates and units.
+
+    Attributes:
+        x: State on this rank, owned dofs first, then ghosts.
+        s: Arc length of the nodes of every local cell, in L, shape (cells, k + 1).
+        rod: Rod of every local cell.
+        R_0: Stress-free frames at those nodes, shape (cells, k + 1, 3, 3).
+        terms: Names of all that acts.
+    """
+
+    def __init__(self, scene: Scene, discretization: Discretization, placement: Placement) -> None:
+        self.scene, self.discretization, self.placement = scene, discretization, placement
+        self.kinematics = discretization.kinematics
+        self._cut_rods()
+        self._set_values()
+        self.constraints = Constraints(scene, self.kinematics, placement, self.locate)
+        self._excluded = np.zeros(len(self.x), dtype=np.int8)
+        self._excluded[self.constraints.dofs] = 1
+        self._lump()
+        self._mask = backend.held_dofs(discretization.x, self.constraints.dofs)
+        owned = self.constraints.dofs < discretization.n_owned
+        self._held = self.constraints.dofs[owned]
+        self._point_terms = point_terms(scene, self.kinematics, placement, self._locate_owned)
+        self._line_loads = list(zip(self._line_histories, discretization.line_loads(self._line_fields), strict=True))
+        self.terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads))
+        self.advance_to(0.0)
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """State on this rank."""
+        return self.discretization.x.x.array
+
+    def _cut_rods(self) -> None:
+        """Element number and rod of every local cell, and where its nodes lie."""
+        d = self.discretization
+        ends = [element_ends(self.scene, j, n) / self.placement.length for j, n in enumerate(d.elements)]
+        lined_up = np.concatenate([np.stack([s[:-1], s[1:]], axis=1) for s in ends])
+        self.rod = np.repeat(np.arange(len(ends)), d.elements)[d.cell]
+        self.ends = lined_up[d.cell]
+        self.s = self._along(d.nodes)
+
+    def _along(self, ξ: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Arc length of the points ξ ∈ [0, 1] of every cell, exact at its ends."""
+        return self.ends[:, :1] * (1.0 - ξ) + self.ends[:, 1:] * ξ
+
+    def _on_rods(self, s: NDArray[np.float64], quantity: str) -> NDArray[np.float64]:
+        """A quantity of the stress-free rods at arc lengths s (cells, points) in L."""
+        shape = {"centerline": (3,), "frames": (3, 3)}[quantity]
+        values = np.zeros((*s.shape, *shape))
+        for j, rod in enumerate(self.scene.rods):
+            mine = self.rod == j
+            at = np.clip(s[mine].ravel() * self.placement.length, 0.0, rod.length)
+            values[mine] = getattr(rod, quantity)(at).reshape(-1, s.shape[1], *shape)
+        return values
+
+    def _set_values(self) -> None:
+        d, place, scene = self.discretization, self.placement, self.scene
+        at_points = self._along(d.points)
+        R_0 = self._on_rods(at_points, "frames")
+        sections = [rod.section for rod in scene.rods]
+        c_n = np.array([section.compliance_n for section in sections]) * place.force
+        c_m = np.array([section.compliance_m for section in sections]) * place.stiffness
+        directions, spins = place.axes.T @ R_0, place.spin_axes.T @ R_0
+        r_0 = place.points(self._on_rods(self.s, "centerline"))
+        self._line_histories, self._line_fields = line_loads(scene, place, self.rod, at_points)
+        self.values = Values(
+            ends=self.ends,
+            r_0=r_0,
+            C_n=np.einsum("cqij,cj,cqkj->cqik", directions, c_n[self.rod], directions),
+            C_m=np.einsum("cqij,cj,cqkj->cqik", spins, c_m[self.rod], spins),
+        )
+        d.set(self.values)
+        self.R_0 = self._on_rods(self.s, "frames")
+        self.x[:] = 0.0
+        self.x[d.dofs["r"]] = r_0
+        self.x[d.dofs["q"]] = self.kinematics.at_rest(1)[0]
+
+    def locate(self, rod: int, s: float) -> dict[str, NDArray[np.int32]] | None:
+        """Local dofs of the node of `rod` at arc length `s` [m], name → numbers; None if it is not on this rank."""
+        ends = np.abs(self.ends - s / self.placement.length) + np.where(self.rod == rod, 0.0, np.inf)[:, None]
+        if not ends.size or ends.min() > SAME_PLACE:
+            return None
+        cell, end = np.unravel_index(int(np.argmin(ends)), ends.shape)
+        fields = [f for f in self.kinematics.fields if f not in ("N", "m")]
+        return {f: self.discretization.dofs[f][cell, end] for f in fields}
+
+    def _locate_owned(self, rod: int, s: float) -> dict[str, NDArray[np.int32]] | None:
+        """As `locate`, for a node this rank owns."""
+        node = self.locate(rod, s)
+        return node if node is not None and node["r"][0] < self.discretization.n_owned else None
+
+    def advance_to(self, t: float) -> None:
+        """Put supports and loads at pseudo-time t; the rest of the state stays."""
+        self.t = t
+        self.x[self.constraints.dofs] = self.constraints.values(t)
+        self._acting: list[PointTerm] = [build(t) for build in self._point_terms]
+
+    def add_residual(self, b: NDArray[np.float64]) -> None:
+        """Add this rank's residual at the current state and time to the local array b."""
+        self.discretization.residual.add_vector(b)
+        for history, vector in self._line_loads:
+            b += factor(history, self.t, self.scene.motion.t_end) * vector
+        for term in self._acting:
+            rows, values = term.residual(self.x)
+            np.add.at(b, rows, values)
+
+    def balance_multipliers(self, b: NDArray[np.float64]) -> None:
+        """Give each multiplier the value at which the residual b has no part along its quaternion.
+
+        It is then a function of the state, not an unknown with a history, and Newton's tangent is that of the
+        energy on the manifold of unit quaternions, wherever the limited rotations have led.
+        """
+        if self._lumped is None:
+            return
+        q, λ = self._unit
+        p = self.x[q]
+        along = (p * b[q]).sum(axis=1)
+        b[q] -= along[:, None] * p
+        self.x[λ] -= along / self._lumped
+        self.discretization.x.x.scatter_forward()
+
+    def _lump(self) -> None:
+        """Weights with which the multipliers enter: their rows of the residual where (p·p − 1)/2 = 1."""
+        d = self.discretization
+        self._lumped = None
+        if "multiplier" not in d.dofs:
+            return
+        self._unit = d.owned_nodes("q"), d.owned_nodes("multiplier")[:, 0]
+        x = self.x.copy()
+        self.x[d.dofs["q"]] = np.sqrt(3.0) * x[d.dofs["q"]]
+        b = d.assembled_residual()
+        self.x[:] = x
+        self._lumped = b[self._unit[1]]
+
+    def clear_held(self, b: NDArray[np.float64]) -> None:
+        """Zero the rows of held dofs: the state meets them already."""
+        b[self._held] = 0.0
+
+    def assemble_tangent(self, A: PETSc.Mat) -> None:
+        """Tangent at the current state and time, unit rows and columns for held dofs."""
+        A.zeroEntries()
+        self.discretization.tangent.add_matrix(A, self._mask)
+        for term in self._acting:
+            block = term.tangent(self.x)
+            if block is not None:
+                self._add_blocks(A, *block)
+        held = self._held
+        self._add_blocks(A, held[:, None], held[:, None], np.ones((len(held), 1, 1)), excluded=False)
+        A.assemble()
+
+    def _add_blocks(
+        self,
+        A: PETSc.Mat,
+        rows: NDArray[np.int32],
+        columns: NDArray[np.int32],
+        values: NDArray[np.float64],
+        *,
+        excluded: bool = True,
+    ) -> None:
+        """Add one dense block for each row of (rows, columns), leaving out held dofs."""
+        n, m = rows.shape[1], columns.shape[1]
+        I = np.repeat(rows, m, axis=1).ravel()  # noqa: E741 (rows of a sparse matrix)
+        J = np.tile(columns, (1, n)).ravel()
+        V = values.reshape(-1)
+        if excluded:
+            keep = (self._excluded[I] == 0) & (self._excluded[J] == 0)
+            I, J, V = I[keep], J[keep], V[keep]  # noqa: E741
+        if len(I):
+            pointers = np.arange(len(I) + 1, dtype=PETSc.IntType)
+            A.setValuesLocalIJV(pointers, J, V, addv=PETSc.InsertMode.ADD_VALUES, rowmap=I.astype(PETSc.IntType))

@@ -1,0 +1,75 @@
+"""Quaternions of section rotation, scalar first: as UFL expressions for forms, as NumPy arrays for nodes.
+
+R(p) = [(w² − v·v) I + 2 v⊗v + 2 w v×] / |p|² with p = (w, v), homogeneous of degree zero, so a quaternion
+interpolated between unit nodes needs no normalisation (Harsch & Eugster 2023, arXiv 2307.04554).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import ufl
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from ufl.core.expr import Expr
+
+__all__ = ["curvature", "exponential", "left", "multiply", "right", "rotate", "rotate_gradient", "rotation"]
+
+
+def rotation(p: Expr) -> Expr:
+    """Rotation matrix R(p) of a quaternion of any norm, UFL, shape (3, 3)."""
+    w, x, y, z = (p[i] for i in range(4))
+    Q = ufl.as_matrix(
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+        ]
+    )
+    return Q / ufl.inner(p, p)
+
+
+def curvature(p: Expr, p_s: Expr) -> Expr:
+    """Curvature of the rotation field R(p(s)) in the rotated frame, 2 Im(p̄ p′)/|p|², UFL, shape (3,)."""
+    w, v = p[0], ufl.as_vector([p[1], p[2], p[3]])
+    w_s, v_s = p_s[0], ufl.as_vector([p_s[1], p_s[2], p_s[3]])
+    return 2 * (w * v_s - w_s * v - ufl.cross(v, v_s)) / ufl.inner(p, p)
+
+
+def left(p: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Im(δp p̄) as a matrix acting on δp: half the spatial spin, shape (n, 3, 4) for p of shape (n, 4)."""
+    w, x, y, z = p.T
+    return np.moveaxis(np.array([[-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]]), -1, 0)
+
+
+def right(p: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Im(p̄ δp) as a matrix acting on δp: half the spin in the rotated frame, shape (n, 3, 4)."""
+    w, x, y, z = p.T
+    return np.moveaxis(np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]]), -1, 0)
+
+
+def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Product a b: first turn by b, then by a; shapes (..., 4)."""
+    scalar = a[..., :1] * b[..., :1] - np.sum(a[..., 1:] * b[..., 1:], axis=-1, keepdims=True)
+    vector = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + np.cross(a[..., 1:], b[..., 1:])
+    return np.concatenate([scalar, vector], axis=-1)
+
+
+def exponential(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Quaternion (cos ½|θ|, sin ½|θ| θ/|θ|) of a rotation vector of any length, shapes (..., 3) → (..., 4)."""
+    half = 0.5 * np.linalg.norm(theta, axis=-1, keepdims=True)
+    return np.concatenate([np.cos(half), 0.5 * np.sinc(half / np.pi) * theta], axis=-1)
+
+
+def rotate(p: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    """R(p) v for unit quaternions, shapes (n, 4), (n, 3) → (n, 3)."""
+    t = 2.0 * np.cross(p[..., 1:], v)
+    return v + p[..., :1] * t + np.cross(p[..., 1:], t)
+
+
+def rotate_gradient(p: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Derivative of R(p) v along the unit sphere, ∂(R v)/∂p δp = 2 Im(δp p̄) × R v, shape (n, 3, 4)."""
+    turned = rotate(p, v)
+    return np.moveaxis(np.cross(2.0 * np.moveaxis(left(p), 2, 1), turned[:, None, :]), 1, 2)

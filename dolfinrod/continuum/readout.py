@@ -1,0 +1,113 @@
+"""From the solver's state to arrays a user reads: gathered on every rank, in space, in SI units."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.continuum import backend
+from dolfinrod.result import RodHistory
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.problem import Problem
+
+__all__ = ["Readout"]
+
+State = dict[str, "NDArray[np.float64]"]
+
+
+class Readout:
+    """Gathers states and turns them into histories.
+
+    Args:
+        problem: Owner of the state.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        d = problem.discretization
+        self._order = np.argsort(d.nodes)
+        self._to_nodes = backend.discontinuous_basis(d.degree - 1, d.nodes[self._order])
+        self._mine = slice(0, d.n_owned_cells)
+
+    def gather(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Values by local cell, lined up by rod and element on every rank."""
+        d = self.problem.discretization
+        parts = d.comm.allgather((d.cell[self._mine], values[self._mine]))
+        cells = np.concatenate([cell for cell, _ in parts])
+        return np.concatenate([part for _, part in parts])[np.argsort(cells)]
+
+    def state(self) -> State:
+        """The whole state by field, each (cells, nodes, components), cells lined up, in working units."""
+        problem = self.problem
+        return {field: self.gather(problem.x[dofs]) for field, dofs in problem.discretization.dofs.items()}
+
+    def restore(self, state: State) -> None:
+        """Make a gathered state the current one."""
+        d = self.problem.discretization
+        for field, dofs in d.dofs.items():
+            self.problem.x[dofs] = state[field][d.cell]
+
+    def energy(self) -> float:
+        """Strain energy ∫ ½ n·C_n n + ½ m·C_m m ds at the current state [J]."""
+        p, d = self.problem, self.problem.discretization
+        mine = self._mine
+        basis = backend.discontinuous_basis(d.degree - 1, d.points)
+        N, m = (np.einsum("qa,cai->cqi", basis, p.x[d.dofs[f][mine]]) for f in ("N", "m"))
+        q = np.einsum("qa,cai->cqi", backend.lagrange_basis(d.degree, d.points), p.x[d.dofs["q"][mine]])
+        n = p.kinematics.rotate_back(q.reshape(-1, q.shape[2]), N.reshape(-1, N.shape[2])).reshape(N.shape)
+        density = np.einsum("cqi,cqij,cqj->cq", n, p.values.C_n[mine], n)
+        density += np.einsum("cqi,cqij,cqj->cq", m, p.values.C_m[mine], m)
+        lengths = np.diff(p.ends[mine], axis=1)
+        total = 0.5 * float((density * lengths * backend.quadrature_weights(2 * d.degree)).sum())
+        return float(d.comm.allreduce(total)) * p.placement.moment
+
+    def histories(self, states: list[State]) -> tuple[RodHistory, ...]:
+        """One history a rod from the gathered states."""
+        p = self.problem
+        s, R_0 = self.gather(p.s)[:, self._order], self.gather(p.R_0)[:, self._order]
+        stacked = {f: np.stack([state[f] for state in states]) for f in ("r", "q", "N", "m")}
+        first = np.concatenate([[0], np.cumsum(p.discretization.elements)])
+        return tuple(
+            self._history(rod, slice(a, b), s[a:b], R_0[a:b], stacked)
+            for rod, (a, b) in enumerate(zip(first[:-1], first[1:], strict=True))
+        )
+
+    def _history(
+        self, rod: int, cells: slice, s: NDArray[np.float64], R_0: NDArray[np.float64], states: State
+    ) -> RodHistory:
+        p, place = self.problem, self.problem.placement
+        r, q = (_joined(states[f][:, cells][:, :, self._order]) for f in ("r", "q"))
+        N, m = (_averaged(np.einsum("na,tcai->tcni", self._to_nodes, states[f][:, cells])) for f in ("N", "m"))
+        frames_0 = _joined(R_0.reshape(1, *R_0.shape[:2], 9))[0].reshape(-1, 3, 3)
+        turned = p.kinematics.turned_frames(q, place.spin_axes, frames_0)
+        n = np.einsum("tsji,tsj->tsi", turned, N @ place.axes.T) * place.force
+        m = np.einsum("sji,tsj->tsi", frames_0, m @ place.spin_axes.T) * place.moment
+        section = p.scene.rods[rod].section
+        length = place.length
+        return RodHistory(
+            s=_joined(s[None, :, :, None])[0, :, 0] * length,
+            r=place.to_space(r),
+            frames=turned,
+            gamma=n * np.asarray(section.compliance_n),
+            kappa=m * np.asarray(section.compliance_m),
+            n=n,
+            m=m,
+        )
+
+
+def _joined(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(times, cells, nodes, …) of a continuous field to (times, nodes of the rod, …)."""
+    inner = values[:, :, :-1]
+    return np.concatenate([inner.reshape(len(values), -1, *values.shape[3:]), values[:, -1, -1:]], axis=1)
+
+
+def _averaged(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same for a field that jumps between elements: the mean of both sides."""
+    mean = values.copy()
+    between = 0.5 * (values[:, :-1, -1] + values[:, 1:, 0])
+    mean[:, :-1, -1] = mean[:, 1:, 0] = between
+    return _joined(mean)

@@ -1,0 +1,155 @@
+"""`dolfinrod.solve`: a scene in, a result out."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+import numpy as np
+from mpi4py import MPI
+
+from dolfinrod.continuum.discretization import Discretization
+from dolfinrod.continuum.kinematics import PlanarRods, SpatialRods
+from dolfinrod.continuum.newton import Newton
+from dolfinrod.continuum.nodes import element_counts
+from dolfinrod.continuum.placement import Placement
+from dolfinrod.continuum.problem import Problem
+from dolfinrod.continuum.readout import Readout
+from dolfinrod.continuum.stepping import Path, StepFailed, walk
+from dolfinrod.result import Formulation, NotConverged, Result, Statistics
+from dolfinrod.scene import Planar, SceneError
+from dolfinrod.scene.kinematics import detect, obstacle
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from dolfinrod.result import StepLog
+    from dolfinrod.scene import Scene, Spatial
+
+__all__ = ["solve"]
+
+DEGREES = range(1, 6)
+
+
+def solve(
+    scene: Scene,
+    *,
+    elements: int | Sequence[int] = 16,
+    degree: int = 3,
+    kinematics: Planar | Spatial | None = None,
+    comm: MPI.Comm | None = None,
+    progress: Callable[[StepLog, float], None] | None = None,
+    start: Result | None = None,
+) -> Result:
+    """Equilibrium of geometrically exact rods (Simo-Reissner, Kirchhoff in the limit).
+
+    Args:
+        scene: What is posed.
+        elements: Elements of each rod, one number for all or one a rod.
+        degree: Degree of centreline and rotation, 1 to 5.
+        kinematics: `Planar()` or `Spatial()`; by default planar where the whole scene lies in one plane.
+        comm: MPI communicator; all ranks of it call together and get the same complete result.
+        progress: Called with each accepted step and the final pseudo-time.
+        start: An earlier result on the same elements: its last state is the first guess; of the same scene, stepping
+            goes on from its last pseudo-time.
+
+    Returns:
+        The states at the accepted load steps.
+
+    Raises:
+        SceneError: The scene or an option cannot be solved as given.
+        NotConverged: A load step could not be taken; carries what had converged.
+    """
+    comm = MPI.COMM_WORLD if comm is None else comm
+    if degree not in DEGREES:
+        raise SceneError(f"degree must be 1, 2, 3, 4 or 5, got {degree!r}")
+    chosen = choose(scene, kinematics)
+    started = time.perf_counter()
+    rods = PlanarRods() if isinstance(chosen, Planar) else SpatialRods()
+    discretization = Discretization(comm, rods, degree, element_counts(scene, elements))
+    problem = Problem(scene, discretization, Placement.of(scene, chosen))
+    newton, readout = Newton(problem), Readout(problem)
+    path = _begin(scene, readout, start)
+    ready = time.perf_counter()
+    failure = None
+    try:
+        walk(newton, readout, path, progress)
+    except StepFailed as caught:
+        failure = caught
+    statistics = Statistics(
+        dofs=discretization.n_dofs,
+        load_steps=len(path.log),
+        newton_iterations=path.iterations,
+        factorizations=newton.factorizations,
+        seconds_compile=discretization.seconds_compile,
+        seconds_setup=ready - started - discretization.seconds_compile,
+        seconds_solve=time.perf_counter() - ready,
+    )
+    result = _result(problem, readout, path, statistics, converged=failure is None)
+    if failure is not None:
+        raise NotConverged(
+            result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=_advice(scene)
+        ) from failure
+    return result
+
+
+def choose(scene: Scene, kinematics: Planar | Spatial | None) -> Planar | Spatial:
+    """The kinematics asked for, or the least that holds the scene.
+
+    Raises:
+        SceneError: Planar is asked for, but something leads out of the plane.
+    """
+    found = detect(scene)
+    if kinematics is None:
+        return found
+    if not isinstance(kinematics, Planar):
+        return kinematics
+    if kinematics.normal is None:
+        if not isinstance(found, Planar):
+            raise SceneError("kinematics must be Spatial(): the scene does not lie in one plane")
+        return found
+    plane = Planar(kinematics.normal, kinematics.origin or tuple(scene.rods[0].centerline(np.zeros(1))[0]))
+    reason = obstacle(scene, plane)
+    if reason is not None:
+        raise SceneError(f"kinematics cannot be Planar(normal={plane.normal}): {reason}")
+    return plane
+
+
+def _begin(scene: Scene, readout: Readout, start: Result | None) -> Path:
+    """The first state: stress free, or where an earlier result ended."""
+    t = 0.0
+    if start is not None:
+        state = readout.state()
+        if {f: a.shape for f, a in state.items()} != {f: a.shape for f, a in start.state.items()}:
+            raise SceneError("start must be a result on the same elements, degree and kinematics")
+        readout.restore(start.state)
+        if start.scene == scene and start.t[-1] < scene.motion.t_end:
+            t = float(start.t[-1])
+    return Path(t=[t], states=[readout.state()], energy=[readout.energy()])
+
+
+def _result(problem: Problem, readout: Readout, path: Path, statistics: Statistics, *, converged: bool) -> Result:
+    d = problem.discretization
+    unknowns = {field: int(np.prod(path.states[0][field].shape)) for field in d.kinematics.fields}
+    for field in set(unknowns) - {"N", "m"}:
+        cells, nodes, components = path.states[0][field].shape
+        unknowns[field] = (cells * (nodes - 1) + len(d.elements)) * components
+    return Result(
+        scene=problem.scene,
+        t=np.array(path.t),
+        rods=readout.histories(path.states),
+        converged=converged,
+        log=tuple(path.log),
+        energy={"strain": np.array(path.energy)},
+        statistics=statistics,
+        formulation=Formulation("continuum", d.kinematics.name, unknowns, problem.terms),
+        state=path.states[-1],
+    )
+
+
+def _advice(scene: Scene) -> str:
+    steps = scene.motion.steps
+    return (
+        f"Try Static(steps={2 * steps if steps else 8}), more elements, or look at `.result` (what converged): "
+        "the load may have passed a critical point there, or something may be free to move"
+    )

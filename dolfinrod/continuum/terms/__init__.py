@@ -1,0 +1,1 @@
+"""Terms of the balance: one thought a file, each adding its part of the residual and the tangent."""

@@ -1,0 +1,5 @@
+"""What a result looks like on disk."""
+
+from dolfinrod.output.record import versions, write
+
+__all__ = ["versions", "write"]

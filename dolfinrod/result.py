@@ -1,0 +1,169 @@
+"""What a solve leaves behind: arrays and records, the same from either model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from dolfinrod.scene import Scene
+
+__all__ = ["Formulation", "NotConverged", "Result", "RodHistory", "Statistics", "StepLog"]
+
+
+@dataclass(frozen=True, eq=False)
+class RodHistory:
+    """Deformed states of one rod at the stored times.
+
+    Args:
+        s: Arc length of the nodes in the reference, ascending, shape (n_s,) [m].
+        r: Centreline, shape (n_t, n_s, 3) [m].
+        frames: Section frames, columns d1 (section normal), d2, d3, shape (n_t, n_s, 3, 3).
+        gamma: Axial and shear strain Rᵀr′ − R₀ᵀr₀′, section frame, shape (n_t, n_s, 3).
+        kappa: Twist and curvature strain κ − κ₀, section frame, shape (n_t, n_s, 3) [1/m].
+        n: Force resultants, section frame, shape (n_t, n_s, 3) [N].
+        m: Moment resultants, section frame, shape (n_t, n_s, 3) [N m].
+    """
+
+    s: NDArray[np.float64]
+    r: NDArray[np.float64]
+    frames: NDArray[np.float64]
+    gamma: NDArray[np.float64]
+    kappa: NDArray[np.float64]
+    n: NDArray[np.float64]
+    m: NDArray[np.float64]
+
+    def at(self, s: float) -> NDArray[np.float64]:
+        """Centreline point nearest in arc length to `s` at every stored time.
+
+        Args:
+            s: Arc length in [0, length] [m].
+
+        Returns:
+            Positions of the node closest to `s`, shape (n_t, 3) [m].
+
+        Raises:
+            ValueError: `s` lies off the rod.
+        """
+        length = self.s[-1]
+        if not 0.0 <= s <= length:
+            raise ValueError(f"s must lie on the rod, between 0 and {length} m, got {s} m")
+        return self.r[:, int(np.argmin(np.abs(self.s - s)))]
+
+
+@dataclass(frozen=True)
+class StepLog:
+    """One accepted step.
+
+    Args:
+        t: Pseudo-time (load factor) or time reached.
+        iterations: Newton iterations of the accepted attempt.
+        cuts: Failed attempts before it.
+        residual: Norm of the residual in units of EI/L² and EI/L.
+        energy: Strain energy [J].
+        stable: Whether the equilibrium is stable; None where not judged.
+    """
+
+    t: float
+    iterations: int
+    cuts: int
+    residual: float
+    energy: float
+    stable: bool | None = None
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """What the solve cost.
+
+    Args:
+        dofs: Unknowns in the linear system.
+        load_steps: Accepted load steps.
+        newton_iterations: All Newton iterations, those of failed attempts included.
+        factorizations: Matrix factorisations.
+        seconds_compile: Time spent on making or loading compiled forms [s].
+        seconds_setup: Mesh, spaces and solver objects [s].
+        seconds_solve: Load stepping, from first to last iteration [s].
+    """
+
+    dofs: int
+    load_steps: int
+    newton_iterations: int
+    factorizations: int
+    seconds_compile: float = 0.0
+    seconds_setup: float = 0.0
+    seconds_solve: float = 0.0
+
+
+@dataclass(frozen=True)
+class Formulation:
+    """What entered the equations, so that a user sees it and a test asserts it.
+
+    Args:
+        model: "continuum" or "discrete".
+        kinematics: "planar" or "spatial".
+        unknowns: Name of each unknown field and its number of dofs.
+        terms: Names of the terms in the balance, each present because the scene lists it.
+        notes: Choices a user should know of (ignored stiffnesses, stand-in values).
+    """
+
+    model: str
+    kinematics: str
+    unknowns: dict[str, int]
+    terms: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """Everything a solve found, complete on every MPI rank.
+
+    Args:
+        scene: The scene that was solved.
+        t: Stored pseudo-times, the initial state first, shape (n_t,).
+        rods: One history per rod.
+        converged: False in the record that `NotConverged` carries.
+        log: One row per accepted step.
+        energy: Ledger at the stored times, name → shape (n_t,) [J].
+        statistics: Cost.
+        formulation: What was in the form.
+    """
+
+    scene: Scene
+    t: NDArray[np.float64]
+    rods: tuple[RodHistory, ...]
+    converged: bool
+    log: tuple[StepLog, ...]
+    energy: dict[str, NDArray[np.float64]]
+    statistics: Statistics
+    formulation: Formulation
+    state: dict[str, NDArray[np.float64]] = field(default_factory=dict, repr=False)
+
+    @property
+    def tip(self) -> NDArray[np.float64]:
+        """End of the first rod at the last stored state, shape (3,) [m]."""
+        return self.rods[0].r[-1, -1]
+
+
+class NotConverged(RuntimeError):  # noqa: N818 (binding public name)
+    """A step that could not be taken; nothing that converged before it is lost.
+
+    Attributes:
+        result: The last converged `Result` (`converged` is False: the end was not reached).
+        t: Pseudo-time of the last converged state.
+        step: Size of the step that failed last.
+        reason: Why the nonlinear solver stopped, in words.
+        advice: What to try.
+    """
+
+    def __init__(self, *, result: Result, t: float, step: float, reason: str, advice: str) -> None:
+        super().__init__(f"no equilibrium found beyond t = {t:.6g} (last step tried {step:.3g}): {reason}. {advice}")
+        self.result = result
+        self.t = t
+        self.step = step
+        self.reason = reason
+        self.advice = advice

@@ -1,0 +1,43 @@
+"""The problem as plain data: rods, what holds them, what acts on them; NumPy only."""
+
+from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.history import Steady, factor, kinks
+from dolfinrod.scene.kinematics import Kinematics, Planar, Spatial, detect, obstacle
+from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
+from dolfinrod.scene.motion import Static
+from dolfinrod.scene.rod import Rod
+from dolfinrod.scene.scene import Scene
+from dolfinrod.scene.section import Section
+from dolfinrod.scene.shape import UniformCurvature
+from dolfinrod.scene.spline import Spline
+from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
+
+__all__ = [
+    "Clamp",
+    "FollowerForce",
+    "FollowerMoment",
+    "Gravity",
+    "Guide",
+    "Kinematics",
+    "LineForce",
+    "Load",
+    "Pin",
+    "Planar",
+    "PointForce",
+    "PointMoment",
+    "Prescribed",
+    "Rod",
+    "Scene",
+    "SceneError",
+    "Section",
+    "Spatial",
+    "Spline",
+    "Static",
+    "Steady",
+    "Support",
+    "UniformCurvature",
+    "detect",
+    "factor",
+    "kinks",
+    "obstacle",
+]

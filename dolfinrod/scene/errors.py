@@ -1,0 +1,34 @@
+"""What is said when a scene cannot be."""
+
+from __future__ import annotations
+
+__all__ = ["SceneError"]
+
+
+class SceneError(ValueError):
+    """Input that poses no mechanical problem, in the user's words: the field, the rule, the value and its unit.
+
+    An object knows its own field only (`Section.EI must be positive, got -1.0 N m²`); whoever knows where the
+    object stands says so by `within` (`rods[0].section.EI must be …`).
+
+    Args:
+        message: The rule and the offending value; the whole sentence if `field` is empty.
+        field: Dotted name of the field, its owner first, as in `Section.EI`.
+    """
+
+    def __init__(self, message: str, *, field: str = "") -> None:
+        super().__init__(f"{field} {message}" if field else message)
+        self.message = message
+        self.field = field
+
+    def within(self, path: str) -> SceneError:
+        """The same complaint, its owner's name replaced by the place where the owner stands.
+
+        Args:
+            path: Where the owner stands, such as `loads[1].point_force`.
+
+        Returns:
+            The error to raise instead.
+        """
+        _, dot, rest = self.field.partition(".")
+        return SceneError(self.message, field=path + dot + rest)

@@ -1,0 +1,189 @@
+"""Fields of a scene file: how each is read from TOML and written back, digit for digit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from inspect import Parameter, signature
+from typing import Any, Protocol
+
+from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.history import Steady
+from dolfinrod.units import UnitError, has_unit, si
+
+__all__ = ["At", "Field", "Growth", "Kind", "Modulus", "Plain", "Quantity", "Specific"]
+
+
+class Field(Protocol):
+    """One value of a table."""
+
+    def read(self, value: Any, path: str) -> Any:
+        """What the constructor takes, from what TOML holds at `path`."""
+
+    def write(self, value: Any, path: str) -> Any:
+        """What TOML holds, from what the record holds."""
+
+
+@dataclass(frozen=True)
+class Plain:
+    """Numbers without unit, words, and lists of them, as they stand; the constructor judges them."""
+
+    def read(self, value: Any, path: str) -> Any:  # noqa: ARG002 (all fields are read alike)
+        """The value itself."""
+        return value
+
+    def write(self, value: Any, path: str) -> Any:  # noqa: ARG002
+        """The value, sets sorted into lists."""
+        if isinstance(value, frozenset):
+            return sorted(value)
+        return list(value) if isinstance(value, tuple) else value
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number with a unit, or a list of any depth of them; plain numbers are SI.
+
+    Args:
+        unit: Canonical SI unit.
+        word: What stands for an entry that is None, if entries may be.
+    """
+
+    unit: str
+    word: str | None = None
+
+    def read(self, value: Any, path: str) -> Any:
+        """Magnitudes in the canonical unit."""
+        if isinstance(value, list):
+            return tuple(self.read(entry, f"{path}[{i}]") for i, entry in enumerate(value))
+        if self.word is not None and value == self.word:
+            return None
+        try:
+            return si(value, self.unit)
+        except UnitError as error:
+            raise SceneError(str(error), field=path) from None
+
+    def write(self, value: Any, path: str) -> Any:
+        """Text with the shortest digits that give the same double back."""
+        if isinstance(value, Iterable):
+            return [self.write(entry, path) for entry in value]
+        return self.word if value is None else f"{value!r} {self.unit}"
+
+
+@dataclass(frozen=True)
+class Specific:
+    """A modulus per density [m²/s²], still to be multiplied with the density."""
+
+    value: float
+
+
+@dataclass(frozen=True)
+class Modulus:
+    """A modulus [Pa], or a modulus per density as textile tables give it [N/tex]."""
+
+    def read(self, value: Any, path: str) -> float | Specific:
+        """Pascals, or `Specific` where the unit says so."""
+        try:
+            if has_unit(value, "N/tex"):
+                return Specific(si(value, "m**2/s**2"))
+            return si(value, "Pa")
+        except UnitError as error:
+            raise SceneError(str(error), field=path) from None
+
+    def write(self, value: Any, path: str) -> str:
+        """Pascals."""
+        return Quantity("Pa").write(value, path)
+
+
+@dataclass(frozen=True)
+class At:
+    """A place on a rod: "start", "end" or an arc length."""
+
+    def read(self, value: Any, path: str) -> Any:
+        """The word, or metres."""
+        if value in ("start", "end"):
+            return value
+        try:
+            return si(value, "m")
+        except UnitError:
+            raise SceneError(f'must be "start", "end" or a length, got {value!r}', field=path) from None
+
+    def write(self, value: Any, path: str) -> str:
+        """The word, or metres."""
+        return value if isinstance(value, str) else Quantity("m").write(value, path)
+
+
+@dataclass(frozen=True)
+class Growth:
+    """A history: "steady" or rows [t, factor]."""
+
+    def read(self, value: Any, path: str) -> Any:
+        """`Steady()` or the rows."""
+        if value == "steady":
+            return Steady()
+        if not isinstance(value, list):
+            raise SceneError(f'must be "steady" or rows [t, factor], got {value!r}', field=path)
+        return value
+
+    def write(self, value: Any, path: str) -> Any:
+        """The word or the rows."""
+        if callable(value):
+            raise SceneError(f"must be a table to be written to a file, got the function {value!r}", field=path)
+        return "steady" if isinstance(value, Steady) else [list(row) for row in value]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A table of a scene file and what it makes.
+
+    Args:
+        make: Constructor; its parameters without default are the fields that must be there.
+        fields: Name of each field and how it is read.
+    """
+
+    make: Callable[..., Any]
+    fields: Mapping[str, Field]
+
+    def read(self, table: Any, path: str, **known: Any) -> Any:
+        """The record a table describes.
+
+        Args:
+            table: What TOML holds.
+            path: Where it stands.
+            **known: Arguments of the constructor that stand elsewhere.
+
+        Returns:
+            What `make` made.
+
+        Raises:
+            SceneError: An unknown or missing field, or a value that cannot be.
+        """
+        return self.made(self.values(table, path, known), path)
+
+    def values(self, table: Any, path: str, known: Mapping[str, Any]) -> dict[str, Any]:
+        """Arguments for `make`, all there and each in SI."""
+        if not isinstance(table, dict):
+            raise SceneError(f"must be a table, got {table!r}", field=path)
+        refuse_unknown(table, self.fields, path)
+        parameters = signature(self.make).parameters.values()
+        needed = {p.name for p in parameters if p.default is Parameter.empty}
+        for name in sorted(needed - table.keys() - known.keys()):
+            raise SceneError("is missing", field=f"{path}.{name}")
+        return {**known, **{name: self.fields[name].read(value, f"{path}.{name}") for name, value in table.items()}}
+
+    def made(self, values: Mapping[str, Any], path: str) -> Any:
+        """What `make` makes of its arguments; its complaints name the path."""
+        try:
+            return self.make(**values)
+        except SceneError as error:
+            raise error.within(path) from None
+
+    def write(self, values: Mapping[str, Any], path: str) -> dict[str, Any]:
+        """The table of these values; what is None or empty is left out."""
+        told = {name: value for name, value in values.items() if value is not None and value != frozenset()}
+        return {name: self.fields[name].write(value, f"{path}.{name}") for name, value in told.items()}
+
+
+def refuse_unknown(table: Mapping[str, Any], known: Iterable[str], path: str) -> None:
+    """Every key of a table is known."""
+    for name in table.keys() - set(known):
+        raise SceneError(f"is not known here; known are {', '.join(known)}", field=f"{path}.{name}".lstrip("."))

@@ -1,0 +1,83 @@
+"""How a load grows over the pseudo-time of a static solve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.quantity import entries, number
+
+__all__ = ["History", "Steady", "factor", "history", "kinks"]
+
+
+@dataclass(frozen=True)
+class Steady:
+    """The full load from the start to the end, factor 1."""
+
+
+Table = tuple[tuple[float, float], ...]
+History = Steady | Sequence[tuple[float, float]] | Callable[[float], float] | None
+
+
+def history(value: object, field: str) -> Steady | Table | Callable[[float], float] | None:
+    """A history as it is stored: None, `Steady()`, a function of time, or a table with ascending times.
+
+    Args:
+        value: None, `Steady()`, f(t), or rows (t, factor).
+        field: Dotted name of the field.
+
+    Returns:
+        The same, a table as tuples of floats.
+
+    Raises:
+        SceneError: None of these, or the times of a table do not ascend.
+    """
+    if value is None or isinstance(value, Steady) or callable(value):
+        return value
+    if not isinstance(value, Iterable) or isinstance(value, str):
+        raise SceneError(f"must be None, Steady(), rows (t, factor) or a function of t, got {value!r}", field=field)
+    rows = [entries(row, f"{field}[{i}]", "", 2) for i, row in enumerate(value)]
+    table = tuple((number(t, f"{field}[{i}][0]"), number(f, f"{field}[{i}][1]")) for i, (t, f) in enumerate(rows))
+    if not table:
+        raise SceneError("must have at least one row (t, factor), got none", field=field)
+    for i, ((before, _), (after, _)) in enumerate(pairwise(table), start=1):
+        if after <= before:
+            raise SceneError(f"must be later than {before}, the row before, got {after}", field=f"{field}[{i}][0]")
+    return table
+
+
+def factor(history: History, t: float, t_end: float) -> float:
+    """What a load is multiplied with at time `t`.
+
+    None: t/t_end (proportional). Steady: 1. Table: linear between its rows, constant beyond them. Function: f(t).
+
+    Args:
+        history: How the load grows.
+        t: Pseudo-time.
+        t_end: Where the pseudo-time ends.
+
+    Returns:
+        The factor.
+
+    Raises:
+        SceneError: A function gave no finite number.
+    """
+    if history is None:
+        return t / t_end
+    if isinstance(history, Steady):
+        return 1.0
+    if callable(history):
+        return number(history(t), f"history({t})")
+    times, factors = zip(*history, strict=True)
+    return float(np.interp(t, times, factors))
+
+
+def kinks(history: History) -> tuple[float, ...]:
+    """Times at which the slope of the history may jump: the rows of a table, none otherwise."""
+    if history is None or isinstance(history, Steady) or callable(history):
+        return ()
+    return tuple(t for t, _ in history)

@@ -1,0 +1,71 @@
+"""What a scene file may hold: each kind of table, its constructor and the units of its fields."""
+
+from __future__ import annotations
+
+from dolfinrod.scene.fields import At, Growth, Kind, Modulus, Plain, Quantity
+from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, PointForce, PointMoment
+from dolfinrod.scene.motion import Static
+from dolfinrod.scene.rod import Rod
+from dolfinrod.scene.section import Section
+from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed
+
+__all__ = ["LOADS", "MOTIONS", "RODS", "SECTION", "SECTIONS", "SUPPORTS"]
+
+METRE, NEWTON, NEWTON_METRE = Quantity("m"), Quantity("N"), Quantity("N*m")
+MATERIAL = {"E": Modulus(), "G": Modulus(), "density": Quantity("kg/m**3"), "shear_factor": Plain(), "rigid": Plain()}
+SECTION = Kind(
+    Section,
+    {
+        "EA": NEWTON,
+        "GA": NEWTON,
+        "GJ": Quantity("N*m**2"),
+        "EI": Quantity("N*m**2"),
+        "rhoA": Quantity("kg/m"),
+        "rhoI": Quantity("kg*m"),
+        "rigid": Plain(),
+        "radius": METRE,
+    },
+)
+SECTIONS = {
+    "circle": Kind(Section.circle, {"diameter": METRE, **MATERIAL}),
+    "rectangle": Kind(Section.rectangle, {"width": METRE, "height": METRE, "torsion": Plain(), **MATERIAL}),
+    "ramie": Kind(Section.ramie, {"rigid": Plain()}),
+}
+FRAMED = {"start": METRE, "direction": Plain(), "d2": Plain(), "pretwist": Quantity("rad/m")}
+RODS = {
+    "straight": Kind(Rod.straight, {"length": METRE, **FRAMED}),
+    "arc": Kind(
+        Rod.arc,
+        {
+            "radius": METRE,
+            "angle": Quantity("rad"),
+            "start": METRE,
+            "direction": Plain(),
+            "towards": Plain(),
+            "pretwist": Quantity("rad/m"),
+        },
+    ),
+    "curved": Kind(Rod.curved, {"length": METRE, "curvature": Quantity("1/m"), **FRAMED}),
+    "through": Kind(Rod.through, {"points": METRE, "d2": Plain(), "pretwist": Quantity("rad/m")}),
+}
+HERE = {"at": At(), "rod": Plain()}
+SUPPORTS = {
+    "clamp": Kind(Clamp, HERE),
+    "pin": Kind(Pin, HERE),
+    "guide": Kind(Guide, {"free": Plain(), **HERE}),
+    "prescribed": Kind(
+        Prescribed,
+        {"displacement": Quantity("m", word="free"), "rotation": Quantity("rad"), "history": Growth(), **HERE},
+    ),
+}
+FORCE = {"force": NEWTON, "history": Growth(), **HERE}
+MOMENT = {"moment": NEWTON_METRE, "history": Growth(), **HERE}
+LOADS = {
+    "point_force": Kind(PointForce, FORCE),
+    "point_moment": Kind(PointMoment, MOMENT),
+    "follower_force": Kind(FollowerForce, FORCE),
+    "follower_moment": Kind(FollowerMoment, MOMENT),
+    "line_force": Kind(LineForce, {"force": Quantity("N/m"), "between": METRE, "rod": Plain(), "history": Growth()}),
+    "gravity": Kind(Gravity, {"g": Quantity("m/s**2"), "history": Growth()}),
+}
+MOTIONS = {"static": Kind(Static, {"steps": Plain(), "t_end": Plain()})}

@@ -1,0 +1,136 @@
+"""Numbers, vectors and places as a user gives them: checked, then plain Python floats."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import isfinite
+from numbers import Integral, Real
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dolfinrod.scene.errors import SceneError
+
+__all__ = [
+    "Place",
+    "Vector",
+    "VectorLike",
+    "assign",
+    "count",
+    "names",
+    "nonnegative",
+    "number",
+    "place",
+    "positive",
+    "rod_index",
+    "vector",
+]
+
+Vector = tuple[float, float, float]
+VectorLike = Sequence[float] | NDArray[np.float64]
+Place = Literal["start", "end"] | float
+
+
+def assign(record: object, **values: object) -> None:
+    """Set checked values on a frozen record while it is being made."""
+    for name, value in values.items():
+        object.__setattr__(record, name, value)
+
+
+def spoken(value: object, unit: str) -> str:
+    """A value with its unit, as it is quoted in a complaint."""
+    numeric = isinstance(value, Real) and not isinstance(value, bool)
+    return f"{value} {unit}".rstrip() if numeric else repr(value)
+
+
+def number(value: object, field: str, unit: str = "") -> float:
+    """A finite number.
+
+    Args:
+        value: Any real number.
+        field: Dotted name of the field.
+        unit: Its unit, for the complaint.
+
+    Returns:
+        The value as a Python float.
+
+    Raises:
+        SceneError: Not a number, infinite or nan.
+    """
+    if not isinstance(value, Real) or isinstance(value, (bool, np.bool_)) or not isfinite(value):
+        raise SceneError(f"must be a finite number{f' [{unit}]' * bool(unit)}, got {spoken(value, unit)}", field=field)
+    return float(value)
+
+
+def positive(value: object, field: str, unit: str = "") -> float:
+    """A finite number above zero; arguments as `number`."""
+    x = number(value, field, unit)
+    if x <= 0.0:
+        raise SceneError(f"must be positive, got {spoken(x, unit)}", field=field)
+    return x
+
+
+def nonnegative(value: object, field: str, unit: str = "") -> float:
+    """A finite number not below zero; arguments as `number`."""
+    x = number(value, field, unit)
+    if x < 0.0:
+        raise SceneError(f"must not be negative, got {spoken(x, unit)}", field=field)
+    return x
+
+
+def vector(value: object, field: str, unit: str = "") -> Vector:
+    """Three finite components; arguments as `number`.
+
+    Returns:
+        The components as Python floats.
+
+    Raises:
+        SceneError: Not three numbers, or one of them infinite or nan.
+    """
+    components = entries(value, field, unit, 3)
+    x, y, z = (number(c, f"{field}[{i}]", unit) for i, c in enumerate(components))
+    return x, y, z
+
+
+def entries(value: object, field: str, unit: str, n: int) -> tuple[object, ...]:
+    """The `n` entries of a sequence, not yet checked one by one."""
+    found = tuple(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else ()
+    if len(found) != n:
+        raise SceneError(f"must have {n} entries{f' [{unit}]' * bool(unit)}, got {value!r}", field=field)
+    return found
+
+
+def count(value: object, field: str) -> int:
+    """A whole number of at least one."""
+    if not isinstance(value, Integral) or isinstance(value, bool) or value < 1:
+        raise SceneError(f"must be a whole number of at least 1, got {value!r}", field=field)
+    return int(value)
+
+
+def rod_index(value: object, field: str) -> int | None:
+    """Number of a rod of the scene, counted from 0, or None for every rod."""
+    if value is None:
+        return None
+    if not isinstance(value, Integral) or isinstance(value, bool) or value < 0:
+        raise SceneError(f"must be the number of a rod (0, 1, …) or None for every rod, got {value!r}", field=field)
+    return int(value)
+
+
+def place(value: object, field: str) -> Place:
+    """A point on a rod: "start", "end" or arc length from the start [m]."""
+    if value == "start":
+        return "start"
+    if value == "end":
+        return "end"
+    if isinstance(value, str):
+        raise SceneError(f'must be "start", "end" or an arc length [m], got {value!r}', field=field)
+    return nonnegative(value, field, "m")
+
+
+def names(value: object, field: str, known: Sequence[str]) -> frozenset[str]:
+    """A set of names out of those known."""
+    given = frozenset(value) if isinstance(value, Iterable) and not isinstance(value, str) else frozenset((value,))
+    if not given <= frozenset(known):
+        raise SceneError(f"must be a set of names out of {', '.join(known)}, got {value!r}", field=field)
+    return frozenset(str(name) for name in given)

@@ -1,0 +1,147 @@
+"""The whole problem: rods, what holds them, what acts on them, how they move."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+
+from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
+from dolfinrod.scene.motion import Static
+from dolfinrod.scene.quantity import Place, assign
+from dolfinrod.scene.rod import Rod
+from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
+
+__all__ = ["Scene"]
+
+SUPPORTS = (Clamp, Pin, Guide, Prescribed)
+POINT_LOADS = (PointForce, PointMoment, FollowerForce, FollowerMoment)
+# Arc lengths closer than this fraction of a rod are one place: text and sums leave round-off.
+SAME_PLACE = 1e-9
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Everything that poses the mechanical problem; what is not listed does not act.
+
+    Args:
+        rods: At least one.
+        supports: What holds them.
+        loads: What acts on them.
+        contacts: None in this version.
+        air: None in this version.
+        motion: How the scene moves on.
+
+    Raises:
+        SceneError: Parts that do not fit together, such as a load beyond the end of its rod.
+    """
+
+    rods: Sequence[Rod]
+    supports: Sequence[Support] = ()
+    loads: Sequence[Load] = ()
+    contacts: Sequence[object] = ()
+    air: object = None
+    motion: Static = field(default_factory=Static)
+
+    def __post_init__(self) -> None:
+        for name in ("rods", "supports", "loads", "contacts"):
+            value = getattr(self, name)
+            if not isinstance(value, (tuple, list)):
+                raise SceneError(f"must be a tuple, got {value!r}", field=name)
+            assign(self, **{name: tuple(value)})
+        self._check_kinds()
+        for name, parts in (("supports", self.supports), ("loads", self.loads)):
+            for i, part in enumerate(parts):
+                self._check_places(part, f"{name}[{i}]")
+        self._check_density()
+        self._check_supports()
+
+    def location(self, at: Place, rod: int | None) -> list[tuple[int, float]]:
+        """Where a support or load sits.
+
+        Args:
+            at: "start", "end" or arc length [m].
+            rod: Number of the rod; None: every rod.
+
+        Returns:
+            Pairs (number of the rod, arc length).
+        """
+        numbers = range(len(self.rods)) if rod is None else (rod,)
+        known = {"start": lambda _: 0.0, "end": lambda k: self.rods[k].length}
+        return [(k, known[at](k) if isinstance(at, str) else float(at)) for k in numbers]
+
+    def marks(self, rod: int) -> tuple[float, ...]:
+        """Arc lengths of a rod where a node must lie: supports, point loads and the ends of line loads.
+
+        Args:
+            rod: Number of the rod.
+
+        Returns:
+            Ascending arc lengths, those of one place listed once [m].
+        """
+        length = self.rods[rod].length
+        pointed = [part for part in (*self.supports, *self.loads) if isinstance(part, (*SUPPORTS, *POINT_LOADS))]
+        found = [s for part in pointed for k, s in self.location(part.at, part.rod) if k == rod]
+        lines = [load for load in self.loads if isinstance(load, LineForce) and load.rod in (None, rod)]
+        found += [s for line in lines for s in line.between or (0.0, length)]
+        marks: list[float] = []
+        for s in sorted(found):
+            s = 0.0 if s <= SAME_PLACE * length else length if s >= length * (1 - SAME_PLACE) else s
+            if not marks or s - marks[-1] > SAME_PLACE * length:
+                marks.append(s)
+        return tuple(marks)
+
+    def _check_kinds(self) -> None:
+        """Every entry is of the kind its place asks for."""
+        kinds = {"rods": (Rod,), "supports": SUPPORTS, "loads": (*POINT_LOADS, LineForce, Gravity)}
+        for name, allowed in kinds.items():
+            for i, part in enumerate(getattr(self, name)):
+                if not isinstance(part, allowed):
+                    known = ", ".join(kind.__name__ for kind in allowed)
+                    raise SceneError(f"must be one of {known}, got {part!r}", field=f"{name}[{i}]")
+        if not self.rods:
+            raise SceneError("must hold at least one rod, got none", field="rods")
+        if self.contacts:
+            raise SceneError(f"must be empty, this version knows no contact, got {self.contacts!r}", field="contacts")
+        if self.air is not None:
+            raise SceneError(f"must be None, this version knows no air, got {self.air!r}", field="air")
+        if not isinstance(self.motion, Static):
+            raise SceneError(f"must be Static, got {self.motion!r}", field="motion")
+
+    def _check_places(self, part: Support | Load, path: str) -> None:
+        """The rod exists and the place lies on it."""
+        if isinstance(part, Gravity):
+            return
+        if part.rod is not None and part.rod >= len(self.rods):
+            raise SceneError(f"must be below {len(self.rods)}, the number of rods, got {part.rod}", field=f"{path}.rod")
+        if isinstance(part, LineForce):
+            ends = [] if part.between is None else [("between[1]", part.between[1])]
+        else:
+            ends = [] if isinstance(part.at, str) else [("at", part.at)]
+        for name, at in ends:
+            for k, s in self.location(at, part.rod):
+                length = self.rods[k].length
+                if s > length * (1 + SAME_PLACE):
+                    beyond = f"must lie on rod {k}, between 0 and {length} m, got {s} m"
+                    raise SceneError(beyond, field=f"{path}.{name}")
+
+    def _check_density(self) -> None:
+        """Gravity finds a mass on every rod."""
+        weights = [i for i, load in enumerate(self.loads) if isinstance(load, Gravity)]
+        for k, rod in enumerate(self.rods):
+            if weights and rod.section.rhoA is None:
+                needed = f"must be given [kg/m], since loads[{weights[0]}] is Gravity, got None"
+                raise SceneError(needed, field=f"rods[{k}].section.rhoA")
+
+    def _check_supports(self) -> None:
+        """No component is held twice at one place; prescribed motions compose."""
+        for (i, first), (j, second) in combinations(enumerate(self.supports), 2):
+            twice = sorted(first.held() & second.held())
+            if not twice or (isinstance(first, Prescribed) and isinstance(second, Prescribed)):
+                continue
+            for k, s in self.location(second.at, second.rod):
+                close = SAME_PLACE * self.rods[k].length
+                if any(m == k and abs(s - t) <= close for m, t in self.location(first.at, first.rod)):
+                    held = f"must not hold {', '.join(twice)} again at s = {s} m of rod {k}: supports[{i}] does already"
+                    raise SceneError(held, field=f"supports[{j}]")

@@ -1,0 +1,195 @@
+"""Scenes as TOML files: every name as in Python, quantities with their units.
+
+    [section.ramie.circle]
+    diameter = "20 um"
+    E = "2224.6 cN/tex"        # a modulus per density is multiplied by the density
+    G = "106.2 cN/tex"
+    density = "1.54 g/cm**3"
+
+    [[rods]]
+    straight = { length = "40 mm" }
+    section = "ramie"
+
+    [[supports]]
+    clamp = { at = "start" }
+
+    [[loads]]
+    point_force = { at = "end", force = ["0 N", "-1 uN", "0 N"] }
+
+Plain numbers are SI. A section is `circle`, `rectangle` or `ramie`, or has the fields of `Section` itself. A history is
+"steady" or rows [t, factor]; a displacement that is not prescribed is "free".
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.fields import Kind, Specific, refuse_unknown
+from dolfinrod.scene.kinds import LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS
+from dolfinrod.scene.motion import Static
+from dolfinrod.scene.rod import Rod
+from dolfinrod.scene.scene import Scene
+from dolfinrod.scene.section import Section
+from dolfinrod.scene.shape import UniformCurvature
+from dolfinrod.scene.spline import Spline
+
+__all__ = ["dumps", "load", "loads"]
+
+
+def load(path: str | Path) -> tuple[Scene, dict[str, Any]]:
+    """A scene from a file.
+
+    Args:
+        path: Of a TOML file.
+
+    Returns:
+        The scene, and the options of its table `solve`.
+
+    Raises:
+        SceneError: Not TOML, or a field that is unknown, missing, or cannot be.
+        OSError: The file cannot be read.
+    """
+    try:
+        return loads(Path(path).read_text(encoding="utf-8"))
+    except UnicodeDecodeError as error:
+        raise SceneError(f"{path} must be text in UTF-8: {error}") from None
+
+
+def loads(text: str) -> tuple[Scene, dict[str, Any]]:
+    """A scene from the text of a file; as `load`."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"a scene must be a TOML file: {error}") from None
+    refuse_unknown(data, ("section", "rods", "supports", "loads", "motion", "solve"), "")
+    sections = {
+        name: _section(table, f"section.{name}") for name, table in _table(data.get("section", {}), "section").items()
+    }
+    scene = Scene(
+        rods=[_rod(table, f"rods[{i}]", sections) for i, table in enumerate(_list(data, "rods"))],
+        supports=[_one(SUPPORTS, table, f"supports[{i}]") for i, table in enumerate(_list(data, "supports"))],
+        loads=[_one(LOADS, table, f"loads[{i}]") for i, table in enumerate(_list(data, "loads"))],
+        motion=_one(MOTIONS, data["motion"], "motion") if data.get("motion") else Static(),
+    )
+    return scene, _table(data.get("solve", {}), "solve")
+
+
+def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
+    """The text of a scene file from which `loads` makes an equal scene.
+
+    Args:
+        scene: Any scene without functions.
+        solve: Options for the table `solve`.
+
+    Returns:
+        TOML, in SI units.
+
+    Raises:
+        SceneError: A history is a function of time.
+    """
+    import tomli_w
+
+    sections = list(dict.fromkeys(rod.section for rod in scene.rods))
+    names = {section: f"section_{i}" for i, section in enumerate(sections)}
+    tables = {
+        "section": {name: _written(SECTION, section, f"section.{name}") for section, name in names.items()},
+        "rods": [_shape(rod, f"rods[{i}]") | {"section": names[rod.section]} for i, rod in enumerate(scene.rods)],
+        "supports": [_named(SUPPORTS, part, f"supports[{i}]") for i, part in enumerate(scene.supports)],
+        "loads": [_named(LOADS, part, f"loads[{i}]") for i, part in enumerate(scene.loads)],
+        "motion": _named(MOTIONS, scene.motion, "motion"),
+        "solve": dict(solve or {}),
+    }
+    return tomli_w.dumps({name: table for name, table in tables.items() if table})
+
+
+def _section(table: Any, path: str) -> Section:
+    """A section by shape and material, or by its stiffnesses."""
+    table = _table(table, path)
+    shapes = table.keys() & SECTIONS.keys()
+    if not shapes:
+        section: Section = SECTION.read(table, path)
+        return section
+    kind, inner, path = _only(SECTIONS, table, path)
+    values = kind.values(inner, path, {})
+    for name, value in values.items():
+        if isinstance(value, Specific):
+            if values.get("density") is None:
+                raise SceneError(f"must be given, since {name} is a modulus per density", field=f"{path}.density")
+            values[name] = value.value * values["density"]
+    made: Section = kind.made(values, path)
+    return made
+
+
+def _rod(table: Any, path: str, sections: Mapping[str, Section]) -> Rod:
+    """A rod: its shape, and the name of its section."""
+    shape = dict(_table(table, path))
+    if "section" not in shape:
+        raise SceneError("is missing", field=f"{path}.section")
+    name = shape.pop("section")
+    if not isinstance(name, str) or name not in sections:
+        raise SceneError(
+            f"must be the name of a section ({', '.join(sections)}), got {name!r}", field=f"{path}.section"
+        )
+    kind, inner, path = _only(RODS, shape, path)
+    rod: Rod = kind.read(inner, path, section=sections[name])
+    return rod
+
+
+def _one(kinds: Mapping[str, Kind], table: Any, path: str) -> Any:
+    """The record of a table that names one kind."""
+    kind, inner, path = _only(kinds, _table(table, path), path)
+    return kind.read(inner, path)
+
+
+def _only(kinds: Mapping[str, Kind], table: Mapping[str, Any], path: str) -> tuple[Kind, Any, str]:
+    """The one kind a table names, what it holds, and its path."""
+    refuse_unknown(table, kinds, path)
+    if len(table) != 1:
+        got = ", ".join(table) or "none"
+        raise SceneError(f"must be one of {', '.join(kinds)}, got {got}", field=path)
+    ((name, inner),) = table.items()
+    return kinds[name], inner, f"{path}.{name}"
+
+
+def _table(value: Any, path: str) -> dict[str, Any]:
+    """A table of TOML."""
+    if not isinstance(value, dict):
+        raise SceneError(f"must be a table, got {value!r}", field=path)
+    return value
+
+
+def _list(data: Mapping[str, Any], name: str) -> list[Any]:
+    """An array of tables, empty where it is left out."""
+    value = data.get(name, [])
+    if not isinstance(value, list):
+        raise SceneError(f"must be a list of tables, written [[{name}]], got {value!r}", field=name)
+    return value
+
+
+def _written(kind: Kind, record: object, path: str) -> dict[str, Any]:
+    """The table of a record whose fields are those of its kind."""
+    return kind.write({name: getattr(record, name) for name in kind.fields}, path)
+
+
+def _named(kinds: Mapping[str, Kind], record: object, path: str) -> dict[str, Any]:
+    """The table that names the kind of a record and holds its table."""
+    ((name, kind),) = ((name, kind) for name, kind in kinds.items() if kind.make is type(record))
+    return {name: _written(kind, record, f"{path}.{name}")}
+
+
+def _shape(rod: Rod, path: str) -> dict[str, Any]:
+    """The table that names the shape of a rod; an arc is written as curved, to keep every digit of its curvature."""
+    shape = rod.shape
+    if isinstance(shape, UniformCurvature):
+        bent = any(shape.kappa)
+        values = {"length": shape.length, "curvature": shape.kappa if bent else None, "start": shape.start}
+        name, values = "curved" if bent else "straight", {**values, "direction": shape.direction, "d2": shape.d2}
+    elif isinstance(shape, Spline):
+        name, values = "through", {"points": shape.points, "d2": shape.d2}
+    else:
+        raise SceneError(f"must be a shape of this package to be written to a file, got {shape!r}", field=path)
+    return {name: RODS[name].write({**values, "pretwist": rod.pretwist or None}, f"{path}.{name}")}

@@ -1,0 +1,93 @@
+"""Units at the border: SI inside, textile and everyday units outside."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from functools import lru_cache
+from numbers import Real
+from tokenize import TokenError
+from typing import Any
+
+__all__ = ["CN_PER_TEX", "TEX", "UnitError", "has_unit", "si"]
+
+TEX = 1e-6  # kg/m: one gram per kilometre
+CN_PER_TEX = 1e4  # J/kg: a modulus per density; times a density it is a pressure
+
+# A decimal number, then a product of powers of units. Three digits of exponent: doubles need no more.
+QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*([\w\s*/^()°·-]*)")
+
+
+class UnitError(ValueError):
+    """Text that is no quantity, or not in the unit asked for; the message completes "field …"."""
+
+
+def si(value: object, unit: str) -> float:
+    """The magnitude of a quantity in an SI unit, correctly rounded.
+
+    The number is kept as an exact fraction while units are converted, so that "20 um" is 2e-05 m to the last digit.
+
+    Args:
+        value: Text such as "20 um" or "2224.6 cN/tex", or a plain number, which is taken as SI.
+        unit: The SI unit of the result, such as "m" or "N*m"; "rad" for an angle.
+
+    Returns:
+        The magnitude.
+
+    Raises:
+        UnitError: Not a quantity, an unknown unit, the wrong dimension, or beyond the range of a double.
+    """
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return float(value)
+    quantity = _quantity(value, unit)
+    if not quantity.is_compatible_with(unit):
+        raise _not_in(unit, value)
+    try:
+        return float(quantity.m_as(unit))
+    except OverflowError:
+        raise _not_in(unit, value) from None
+
+
+def has_unit(value: object, unit: str) -> bool:
+    """Whether a quantity given as text has the dimension of a unit; a plain number has none.
+
+    Args:
+        value: As in `si`.
+        unit: Any unit, such as "N/tex".
+
+    Returns:
+        True where `si(value, unit)` would convert a text.
+
+    Raises:
+        UnitError: Text that is no quantity, or an unknown unit.
+    """
+    return isinstance(value, str) and bool(_quantity(value, unit).is_compatible_with(unit))
+
+
+def _quantity(value: object, unit: str) -> Any:
+    """The pint quantity a text names."""
+    read = QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    if read is None:
+        raise _not_in(unit, value)
+    number, name = read.groups()
+    import pint
+
+    try:
+        # Micro is written with either of two letters; pint knows one.
+        return _registry().Quantity(Fraction(number), _registry().parse_units(name.replace("μ", "µ")))
+    except pint.UndefinedUnitError:
+        raise UnitError(f"must be a quantity in {unit}, got {value!r}: there is no unit {name.strip()!r}") from None
+    except (pint.PintError, TokenError, ValueError, TypeError):
+        raise _not_in(unit, value) from None
+
+
+def _not_in(unit: str, value: object) -> UnitError:
+    return UnitError(f"must be a quantity in {unit}, got {value!r}")
+
+
+@lru_cache(maxsize=1)
+def _registry() -> Any:
+    """Pint, told to compute with fractions; it takes a good part of a second to load."""
+    import pint
+
+    return pint.UnitRegistry(non_int_type=Fraction)
