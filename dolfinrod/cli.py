@@ -12,10 +12,10 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from dolfinrod.output import versions, write
+from dolfinrod.output import contents, summary, versions, write
 from dolfinrod.progress import ProgressLine
 from dolfinrod.result import NotConverged
-from dolfinrod.scene import Planar, Scene, SceneError, Spatial, detect, toml
+from dolfinrod.scene import Planar, Scene, SceneError, Spatial, toml
 
 if TYPE_CHECKING:
     from dolfinrod.result import Result, StepLog
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
     outcomes = {model: _solve(model, scene, chosen) for model in models}
     if _is_first_rank():
         for model, (result, failure) in outcomes.items():
-            print(_summary(model, result))
+            print(summary(model, result))
             if options.out is not None:
                 folder = options.out / model if len(models) > 1 else options.out
                 write(result, folder, failure=failure)
@@ -77,7 +77,8 @@ def info(options: argparse.Namespace) -> int:
     """Say what is installed and what a scene holds."""
     lines = [f"{name} {version}" for name, version in (versions() | _petsc()).items()]
     if options.scene is not None:
-        lines += ["", *_contents(*_read(options.scene))]
+        scene, chosen = _read(options.scene)
+        lines += ["", *contents(scene), *(f"solve: {key} = {value}" for key, value in chosen.items())]
     if _is_first_rank():
         print("\n".join(lines))
     return SOLVED
@@ -186,40 +187,6 @@ def _discrete(scene: Scene, options: Mapping[str, Any], progress: Callable[[Step
 
     chosen = {key: value for key, value in options.items() if key not in CONTINUUM_ONLY}
     return solve(scene, **chosen, progress=progress)
-
-
-def _summary(model: str, result: Result) -> str:
-    """Outcome, cost and tip."""
-    s, f = result.statistics, result.formulation
-    end = "converged" if result.converged else "not converged"
-    x, y, z = result.tip
-    return (
-        f"{model}: {end} at t = {result.t[-1]:.6g}; {f.kinematics}, {s.dofs} unknowns; {s.load_steps} load steps, "
-        f"{s.newton_iterations} Newton iterations, {1e3 * s.seconds_solve:.3g} ms\n"
-        f"  tip ({x:.10g}, {y:.10g}, {z:.10g}) m"
-    )
-
-
-def _contents(scene: Scene, options: Mapping[str, Any]) -> list[str]:
-    """Rods, supports, loads and kinematics of a scene, one line each."""
-    found = detect(scene)
-    plane = f", normal {_vector(found.normal)}" if isinstance(found, Planar) else ""
-    return [
-        *(
-            f"rods[{k}]: {type(rod.shape).__name__}, length {rod.length:.6g} m, from {_vector(rod.centerline(0.0))} m "
-            f"to {_vector(rod.centerline(rod.length))} m"
-            for k, rod in enumerate(scene.rods)
-        ),
-        *(f"supports[{i}]: {support}" for i, support in enumerate(scene.supports)),
-        *(f"loads[{i}]: {load}" for i, load in enumerate(scene.loads)),
-        f"motion: {scene.motion}",
-        f"kinematics: {type(found).__name__.lower()}{plane}",
-        *(f"solve: {key} = {value}" for key, value in options.items()),
-    ]
-
-
-def _vector(values: Any) -> str:
-    return "(" + ", ".join(f"{value:.6g}" for value in values) + ")"
 
 
 def _petsc() -> dict[str, str]:

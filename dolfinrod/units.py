@@ -8,6 +8,7 @@ from functools import lru_cache
 from numbers import Real
 from tokenize import TokenError
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 __all__ = ["CN_PER_TEX", "TEX", "UnitError", "has_unit", "si"]
 
@@ -72,9 +73,10 @@ def _quantity(value: object, unit: str) -> Any:
     number, name = read.groups()
     import pint
 
+    registry = _registry()
     try:
         # Micro is written with either of two letters; pint knows one.
-        return _registry().Quantity(Fraction(number), _registry().parse_units(name.replace("μ", "µ")))
+        return registry.Quantity(Fraction(number), registry.parse_units(name.replace("μ", "µ")))
     except pint.UndefinedUnitError:
         raise UnitError(f"must be a quantity in {unit}, got {value!r}: there is no unit {name.strip()!r}") from None
     except (pint.PintError, TokenError, ValueError, TypeError):
@@ -90,4 +92,7 @@ def _registry() -> Any:
     """Pint, told to compute with fractions; it takes a good part of a second to load."""
     import pint
 
-    return pint.UnitRegistry(non_int_type=Fraction)
+    with catch_warnings():
+        # Debian's pint 0.19 opens its definitions by a function that importlib has deprecated.
+        simplefilter("ignore", DeprecationWarning)
+        return pint.UnitRegistry(non_int_type=Fraction)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from mpi4py import MPI  # noqa: F401 (DOLFINx asks for mpi4py first)
@@ -16,7 +17,7 @@ import ufl
 from dolfinx import fem, mesh
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
     from petsc4py import PETSc
@@ -33,6 +34,7 @@ __all__ = [
     "interval_mesh",
     "lagrange_basis",
     "lagrange_nodes",
+    "node_rule",
     "quadrature_points",
     "quadrature_weights",
     "space",
@@ -55,6 +57,21 @@ def discontinuous(degree: int, dim: int) -> ufl.FiniteElementBase:
 def at_quadrature(degree: int, dim: int) -> ufl.FiniteElementBase:
     """Values given at the Gauss points of a rule of `degree`, `dim` components."""
     return ufl.VectorElement("Quadrature", INTERVAL, degree=degree, quad_scheme="default", dim=dim)
+
+
+def node_rule(degree: int) -> dict[str, Any]:
+    """Metadata of the Gauss-Lobatto rule on the nodes of P_k, written out.
+
+    FFCx 0.5 tells rules apart by three digits of a hash, which are the same for the five-point Gauss-Lobatto and the
+    four-point Gauss rule; the points listed from the far end have another.
+    """
+    points, weights = basix.make_quadrature(basix.QuadratureType.gll, CELL, 2 * degree - 1)
+    return {
+        "quadrature_rule": "custom",
+        "quadrature_degree": 2 * degree - 1,
+        "quadrature_points": [[float(x)] for x in points[::-1, 0]],
+        "quadrature_weights": [float(w) for w in weights[::-1]],
+    }
 
 
 def interval_mesh(comm: MPI.Comm, nodes: Sequence[NDArray[np.float64]]) -> tuple[mesh.Mesh, NDArray[np.int64]]:
@@ -93,7 +110,8 @@ def n_owned_cells(rods: mesh.Mesh) -> int:
 
 def space(rods: mesh.Mesh, element: ufl.FiniteElementBase) -> fem.FunctionSpace:
     """Function space of an element or a mixed element on the rods."""
-    return fem.FunctionSpace(rods, element)
+    with _quiet_compiler():
+        return fem.FunctionSpace(rods, element)
 
 
 def function(space_: fem.FunctionSpace) -> fem.Function:
@@ -168,6 +186,17 @@ def lagrange_basis(degree: int, points: NDArray[np.float64]) -> NDArray[np.float
     return np.asarray(element.tabulate(0, points[:, None])[0, :, :, 0])
 
 
+@contextmanager
+def _quiet_compiler() -> Iterator[None]:
+    """Keeps the C compiler's command lines off the user's terminal."""
+    before = logging.root.manager.disable
+    logging.disable(logging.INFO)
+    try:
+        yield
+    finally:
+        logging.disable(before)
+
+
 class FormKind:
     """A form as text and machine code, free of any mesh: compiled once, used for every mesh and every value.
 
@@ -180,14 +209,10 @@ class FormKind:
     """
 
     def __init__(self, comm: MPI.Comm, form: ufl.Form) -> None:
-        quiet = logging.root.manager.disable
-        logging.disable(logging.INFO)
-        try:
+        with _quiet_compiler():
             self.code, self._module, _ = dolfinx.jit.ffcx_jit(
                 comm, form, form_compiler_params={"scalar_type": "double"}, jit_params={"timeout": 60}
             )
-        finally:
-            logging.disable(quiet)
         originals = form.coefficients()
         positions = [self.code.original_coefficient_position[i] for i in range(self.code.num_coefficients)]
         self.coefficients = [originals[i] for i in positions]
@@ -236,10 +261,10 @@ class BoundForm:
         """An empty matrix with the pattern of this bilinear form."""
         return dolfinx.fem.petsc.create_matrix(self._form)
 
-    def add_matrix(self, A: PETSc.Mat, held: fem.DirichletBCMetaClass) -> None:
+    def add_matrix(self, A: PETSc.Mat, *held: fem.DirichletBCMetaClass) -> None:
         """Add the bilinear form to `A`, leaving out rows and columns of held dofs."""
         coefficients = cpp.fem.pack_coefficients(self._form)
-        cpp.fem.petsc.assemble_matrix(A, self._form, self._constants, coefficients, [held])
+        cpp.fem.petsc.assemble_matrix(A, self._form, self._constants, coefficients, list(held))
 
     def add_vector(self, b: NDArray[np.float64]) -> None:
         """Add the linear form to the local array `b` (owned, then ghosts)."""

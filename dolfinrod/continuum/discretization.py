@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum import backend
+from dolfinrod.continuum.banded import Band
 from dolfinrod.continuum.forms import forms_of
 
 if TYPE_CHECKING:
     from mpi4py import MPI
+    from dolfinx import fem
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.kinematics import Kinematics
@@ -27,8 +29,8 @@ class Values:
     Args:
         ends: Arc length of the element ends, shape (cells, 2).
         r_0: Stress-free centreline at the nodes, shape (cells, k + 1, d).
-        C_n: Compliance of axial and shear strain, stress-free directions in space, shape (cells, points, d, d).
-        C_m: Compliance of twist and bending, likewise, shape (cells, points, n_spin, n_spin).
+        C_n: Compliance of stretch and shear at the Gauss points, shape (cells, points, d, d).
+        C_m: Compliance of twist and bending there, shape (cells, points, n_spin, n_spin).
     """
 
     ends: NDArray[np.float64]
@@ -47,7 +49,10 @@ class Discretization:
         elements: Number of elements of each rod.
 
     Attributes:
+        points: Gauss points on [0, 1].
         dofs: Local numbers of each field, name → (cells, nodes, components).
+        matrix: Tangent, with the pattern of the elements.
+        band: Its layout as a band; None on several ranks.
         cell: For each local cell, its number when all rods are lined up.
         n_owned_cells: Cells this rank owns.
         seconds_compile: Time for making or loading forms [s].
@@ -83,6 +88,11 @@ class Discretization:
         self.residual = backend.BoundForm(self.forms.residual, [self.space], values)
         self.tangent = backend.BoundForm(self.forms.tangent, [self.space, self.space], values)
         self.line_load = backend.BoundForm(self.forms.line_load, [self.space], values)
+        self.matrix = self.tangent.matrix()
+        # PETSc forgets preallocated entries that nothing was ever put into.
+        self.tangent.add_matrix(self.matrix)
+        self.matrix.assemble()
+        self.band = Band(self.matrix) if self.comm.size == 1 else None
 
     def owned_nodes(self, field: str) -> NDArray[np.int32]:
         """Dofs of the distinct nodes of a field that this rank owns, shape (nodes, components)."""
@@ -97,7 +107,11 @@ class Discretization:
         self.r_0.x.array[backend.cell_dofs(self.r_0.function_space)] = values.r_0
         for function, C in ((self.C_n, values.C_n), (self.C_m, values.C_m)):
             i, j = np.triu_indices(C.shape[-1])
-            function.x.array[backend.cell_dofs(function.function_space)] = C[..., i, j]
+            self._fill(function, C[..., i, j])
+
+    def _fill(self, function: fem.Function, at_points: NDArray[np.float64]) -> None:
+        """Give a coefficient its values at the Gauss points, shape (cells, points, components)."""
+        function.x.array[backend.cell_dofs(function.function_space)] = at_points
 
     def assembled_residual(self) -> NDArray[np.float64]:
         """Residual of the forms at the current state, rows owned by this rank, summed over all ranks."""
@@ -110,7 +124,7 @@ class Discretization:
         """Local residual vectors −∫ f·δr ds of dead line loads, one for each field in `f`."""
         vectors = []
         for field in f:
-            self.f.x.array[backend.cell_dofs(self.f.function_space)] = field
+            self._fill(self.f, field)
             b = np.zeros_like(self.x.x.array)
             self.line_load.add_vector(b)
             vectors.append(b)

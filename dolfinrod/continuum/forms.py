@@ -42,14 +42,18 @@ class Forms:
             "f": backend.at_quadrature(2 * k, d),
         }
         spaces = backend.abstract_spaces(*self.elements.values())
-        self.coefficients = {name: ufl.Coefficient(V) for name, V in zip(self.elements, spaces, strict=True)}
+        # Numbered here and now: FFCx 0.5 writes a running number of two digits into C that does not compile.
+        self.coefficients = {
+            name: ufl.Coefficient(V, count=i) for i, (name, V) in enumerate(zip(self.elements, spaces, strict=True))
+        }
         x, r_0, C_n, C_m, f = self.coefficients.values()
         δx, Δx = ufl.TestFunction(spaces[0]), ufl.TrialFunction(spaces[0])
-        ds = ufl.dx(domain=spaces[0].ufl_domain(), metadata={"quadrature_degree": 2 * k})
+        dx = ufl.dx(domain=spaces[0].ufl_domain())
+        ds = dx(metadata={"quadrature_degree": 2 * k})
         q = kinematics.configuration(ufl.split(x))
-        energy = stored_energy(q, symmetric(C_n), symmetric(C_m), r_0, ds)
+        energy = stored_energy(q, symmetric(C_n), symmetric(C_m), r_0) * ds
         if q.gauge is not None:
-            energy += node_condition(q.gauge, k, ds)
+            energy += node_condition(q.gauge, dx(metadata=backend.node_rule(k)))
         residual = ufl.derivative(energy, x, δx)
         self.residual = backend.FormKind(comm, residual)
         self.tangent = backend.FormKind(comm, ufl.derivative(residual, x, Δx))

@@ -54,7 +54,6 @@ class Kinematics(Protocol):
     name: str
     dim: int
     n_spin: int
-    n_strain: int
     fields: tuple[str, ...]
 
     def elements(self, degree: int) -> list[ufl.FiniteElementBase]: ...
@@ -83,13 +82,12 @@ class SpatialRods:
     name = "spatial"
     dim = 3
     n_spin = 3
-    n_strain = 6
     fields = ("r", "q", "multiplier", "N", "m")
 
     def elements(self, degree: int) -> list[ufl.FiniteElementBase]:
         """P_k for r, p and λ; discontinuous P_{k−1} for N and m."""
-        continuous = [lagrange(degree, dim) for dim in (3, 4, 1)]
-        return [*continuous, discontinuous(degree - 1, 3), discontinuous(degree - 1, 3)]
+        nodal, inner = (3, 4, 1), (3, 3)
+        return [*(lagrange(degree, d) for d in nodal), *(discontinuous(degree - 1, d) for d in inner)]
 
     def configuration(self, x: tuple[Expr, ...]) -> Configuration:
         """Strain-carrying quantities of (r, p, λ, N, m)."""
@@ -109,7 +107,7 @@ class SpatialRods:
 
     def increment(self, q: NDArray[np.float64], dq: NDArray[np.float64]) -> NDArray[np.float64]:
         """Rotation vectors in space that a change δp of unit quaternions stands for, 2 Im(δp p̄), (n, 3)."""
-        return 2.0 * np.einsum("nij,nj->ni", quaternion.left(q), dq)
+        return quaternion.spin(q, dq)
 
     def turn(self, q: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]:
         """exp(½ θ) p, of unit norm to round-off."""
@@ -158,17 +156,12 @@ class PlanarRods:
     name = "planar"
     dim = 2
     n_spin = 1
-    n_strain = 3
     fields = ("r", "q", "N", "m")
 
     def elements(self, degree: int) -> list[ufl.FiniteElementBase]:
         """P_k for r and φ; discontinuous P_{k−1} for N and m."""
-        return [
-            lagrange(degree, 2),
-            lagrange(degree, 1),
-            discontinuous(degree - 1, 2),
-            discontinuous(degree - 1, 1),
-        ]
+        nodal, inner = (2, 1), (2, 1)
+        return [*(lagrange(degree, d) for d in nodal), *(discontinuous(degree - 1, d) for d in inner)]
 
     def configuration(self, x: tuple[Expr, ...]) -> Configuration:
         """Strain-carrying quantities of (r, φ, N, m)."""

@@ -15,6 +15,8 @@ import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
 
+from dolfinrod.continuum.banded import BandedLU
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -66,11 +68,9 @@ class Newton:
         d = problem.discretization
         self.factorizations = 0
         self._q = d.owned_nodes("q")
-        self._m = d.owned_nodes("m").ravel()
-        self._others = [*(d.owned_nodes(f).ravel() for f in ("r", "N")), self._m]
-        self._A = d.tangent.matrix()
-        self._A.setOption(PETSc.Mat.Option.KEEP_NONZERO_PATTERN, True)
-        self._X = d.x.vector.duplicate()
+        self._linear = [d.owned_nodes(f).ravel() for f in ("r", "N", "m")]
+        self._m = self._linear[-1]
+        self._A, self._X, self._F = d.matrix, d.x.vector.duplicate(), d.x.vector.duplicate()
         self._size = np.inf
         self.snes = self._make_snes(d.comm)
 
@@ -78,15 +78,13 @@ class Newton:
         snes = PETSc.SNES().create(comm)
         snes.setOptionsPrefix("rod_")
         snes.setType(PETSc.SNES.Type.NEWTONLS)
-        snes.setFunction(self._residual, self._X.duplicate())
+        snes.setFunction(self._residual, self._F)
         snes.setJacobian(self._tangent, self._A)
         snes.setLineSearchPreCheck(self._limit)
         snes.setConvergenceTest(self._test)
         ksp = snes.getKSP()
         ksp.setType(PETSc.KSP.Type.PREONLY)
-        ksp.getPC().setType(PETSc.PC.Type.LU)
-        # Both pivot, as zero compliances and multipliers need: KLU is quick on one rank, MUMPS works on many.
-        ksp.getPC().setFactorSolverType("klu" if comm.size == 1 else "mumps")
+        self._choose_factorization(ksp.getPC())
         options = {"rod_snes_linesearch_type": "basic"}
         database = PETSc.Options()
         for name, value in options.items():
@@ -95,6 +93,16 @@ class Newton:
         for name in options:
             database.delValue(name)
         return snes
+
+    def _choose_factorization(self, pc: PETSc.PC) -> None:
+        """LU that pivots, as zero compliances and multipliers need: a band on one rank, MUMPS on many."""
+        band = self.problem.discretization.band
+        if band is None:
+            pc.setType(PETSc.PC.Type.LU)
+            pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+        else:
+            pc.setType(PETSc.PC.Type.PYTHON)
+            pc.setPythonContext(BandedLU(band))
 
     def solve(self) -> Outcome:
         """Equilibrium at the problem's pseudo-time, from the problem's state; on failure the state is lost."""
@@ -106,6 +114,12 @@ class Newton:
         self.factorizations += iterations
         words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
         return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words)
+
+    def close(self) -> None:
+        """Free what PETSc holds, on all ranks together: the garbage collector would do it on each at its own time."""
+        self.snes.destroy()
+        self._F.destroy()
+        self._X.destroy()
 
     def _take(self, X: PETSc.Vec) -> None:
         """Make X the problem's state."""
@@ -128,19 +142,24 @@ class Newton:
 
     def _limit(self, X: PETSc.Vec, Y: PETSc.Vec) -> bool:
         """Replace the Newton step Y (x − Y is next) by one that stays on the manifold and turns at most so far."""
-        kin, comm = self.problem.kinematics, self.problem.discretization.comm
+        kin = self.problem.kinematics
         x, y = X.array_r, Y.array
         q = x[self._q]
         θ = kin.increment(q, -y[self._q])
-        turn = comm.allreduce(float(np.sqrt((θ * θ).sum(axis=1).max(initial=0.0))), op=MPI.MAX)
+        turn = np.sqrt(self._largest([np.einsum("ni,ni->n", θ, θ)])[0])
         if turn > LARGEST_TURN:
             θ *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
         y[self._q] = q - kin.turn(q, θ)
-        sizes = [size for dofs in self._others for size in _sizes(x[dofs], y[dofs])]
-        largest = comm.allreduce(np.array(sizes), op=_MAX)
-        self._size = max(turn, *(largest[::2] / np.maximum(largest[1::2], 1.0)))
+        sizes = self._largest([a[dofs] for a in (y, x) for dofs in self._linear])
+        self._size = max(turn, *(sizes[:3] / np.maximum(sizes[3:], 1.0)))
         return True
+
+    def _largest(self, values: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Largest magnitude in each array, over all ranks; a rank may have none."""
+        largest = np.array([np.abs(v).max(initial=0.0) for v in values])
+        self.problem.discretization.comm.Allreduce(MPI.IN_PLACE, largest, op=MPI.MAX)
+        return largest
 
     def _test(self, snes: PETSc.SNES, iteration: int, norms: tuple[float, float, float]) -> int:
         reasons = PETSc.SNES.ConvergedReason
@@ -149,16 +168,4 @@ class Newton:
         if iteration > 0 and self._size < TOLERANCE:
             return reasons.CONVERGED_SNORM_RELATIVE
         return reasons.DIVERGED_MAX_IT if iteration >= MOST_ITERATIONS else reasons.ITERATING
-
-
-def _sizes(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float]:
-    """Largest increment and largest new value."""
-    return float(np.abs(y).max(initial=0.0)), float(np.abs(x - y).max(initial=0.0))
-
-
-def _largest(a: NDArray[np.float64], b: NDArray[np.float64], _: object = None) -> NDArray[np.float64]:
-    return np.maximum(a, b)
-
-
-_MAX = MPI.Op.Create(_largest, commute=True)
 

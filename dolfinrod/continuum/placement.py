@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.scene import Planar, SceneError
+from dolfinrod.scene import Planar
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -41,11 +41,7 @@ class Placement:
 
     @classmethod
     def of(cls, scene: Scene, kinematics: Planar | Spatial) -> Placement:
-        """Units and directions for `scene`; in a plane the directions follow supports that hold only one of them.
-
-        Raises:
-            SceneError: A support holds one direction askew to those that other supports hold.
-        """
+        """Units and directions for `scene`; in a plane the directions follow supports that hold only one of them."""
         length = max(rod.length for rod in scene.rods)
         stiffness = max(max(rod.section.EI) for rod in scene.rods)
         origin = scene.rods[0].centerline(np.zeros(1))[0]
@@ -81,19 +77,13 @@ class Placement:
 
 
 def _single_direction(scene: Scene, normal: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """The one in-plane direction that some support holds alone, if any."""
-    found: NDArray[np.float64] | None = None
-    for number, support in enumerate(scene.supports):
+    """The in-plane direction that some support holds alone, if any; another held alone is along or across it.
+
+    `dolfinrod.scene.kinematics.obstacle` lets no other support into a plane.
+    """
+    for support in scene.supports:
         held = [np.eye(3)[AXES[a]] for a in sorted(support.held()) if a in AXES]
         rows = np.array([e - (e @ normal) * normal for e in held]).reshape(-1, 3)
-        if np.linalg.matrix_rank(rows, tol=ALIGNED) != 1:
-            continue
-        d = rows[np.argmax(np.linalg.norm(rows, axis=1))]
-        d = d / np.linalg.norm(d)
-        if found is not None and ALIGNED < abs(found @ d) < 1.0 - ALIGNED:
-            raise SceneError(
-                f"supports[{number}] holds one direction of the plane that is askew to the one another support "
-                "holds; solve with kinematics=Spatial()"
-            )
-        found = d
-    return found
+        if np.linalg.matrix_rank(rows, tol=ALIGNED) == 1:
+            return np.asarray(rows[np.argmax(np.linalg.norm(rows, axis=1))])
+    return None

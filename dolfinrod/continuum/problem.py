@@ -91,10 +91,10 @@ class Problem:
     def _set_values(self) -> None:
         d, place, scene = self.discretization, self.placement, self.scene
         at_points = self._along(d.points)
-        R_0 = self._on_rods(at_points, "frames")
         sections = [rod.section for rod in scene.rods]
         c_n = np.array([section.compliance_n for section in sections]) * place.force
         c_m = np.array([section.compliance_m for section in sections]) * place.stiffness
+        R_0 = self._on_rods(at_points, "frames")
         directions, spins = place.axes.T @ R_0, place.spin_axes.T @ R_0
         r_0 = place.points(self._on_rods(self.s, "centerline"))
         self._line_histories, self._line_fields = line_loads(scene, place, self.rod, at_points)

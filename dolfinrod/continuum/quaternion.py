@@ -15,7 +15,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from ufl.core.expr import Expr
 
-__all__ = ["curvature", "exponential", "left", "multiply", "right", "rotate", "rotate_gradient", "rotation"]
+__all__ = [
+    "cross",
+    "curvature",
+    "exponential",
+    "left",
+    "multiply",
+    "right",
+    "rotate",
+    "rotate_gradient",
+    "rotation",
+    "spin",
+]
 
 
 def rotation(p: Expr) -> Expr:
@@ -38,22 +49,34 @@ def curvature(p: Expr, p_s: Expr) -> Expr:
     return 2 * (w * v_s - w_s * v - ufl.cross(v, v_s)) / ufl.inner(p, p)
 
 
+def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """a × b of vectors in the last axis; on the few hundred nodes of a rod NumPy's own takes ten times as long."""
+    c = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        c[..., i] = a[..., j] * b[..., k] - a[..., k] * b[..., j]
+    return c
+
+
 def left(p: NDArray[np.float64]) -> NDArray[np.float64]:
     """Im(δp p̄) as a matrix acting on δp: half the spatial spin, shape (n, 3, 4) for p of shape (n, 4)."""
-    w, x, y, z = p.T
-    return np.moveaxis(np.array([[-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]]), -1, 0)
+    return p[:, [[1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]]] * [[-1, 1, -1, 1], [-1, 1, 1, -1], [-1, -1, 1, 1]]
 
 
 def right(p: NDArray[np.float64]) -> NDArray[np.float64]:
     """Im(p̄ δp) as a matrix acting on δp: half the spin in the rotated frame, shape (n, 3, 4)."""
-    w, x, y, z = p.T
-    return np.moveaxis(np.array([[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]]), -1, 0)
+    return p[:, [[1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]]] * [[-1, 1, 1, -1], [-1, -1, 1, 1], [-1, 1, -1, 1]]
+
+
+def spin(p: NDArray[np.float64], δp: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Spatial spin δθ = 2 Im(δp p̄) of a change of unit quaternions, shapes (n, 4) → (n, 3)."""
+    w, v, δw, δv = p[:, :1], p[:, 1:], δp[:, :1], δp[:, 1:]
+    return 2.0 * (w * δv - δw * v + cross(v, δv))
 
 
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Product a b: first turn by b, then by a; shapes (..., 4)."""
     scalar = a[..., :1] * b[..., :1] - np.sum(a[..., 1:] * b[..., 1:], axis=-1, keepdims=True)
-    vector = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + np.cross(a[..., 1:], b[..., 1:])
+    vector = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + cross(a[..., 1:], b[..., 1:])
     return np.concatenate([scalar, vector], axis=-1)
 
 
@@ -65,11 +88,11 @@ def exponential(theta: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def rotate(p: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
     """R(p) v for unit quaternions, shapes (n, 4), (n, 3) → (n, 3)."""
-    t = 2.0 * np.cross(p[..., 1:], v)
-    return v + p[..., :1] * t + np.cross(p[..., 1:], t)
+    t = 2.0 * cross(p[..., 1:], v)
+    return v + p[..., :1] * t + cross(p[..., 1:], t)
 
 
 def rotate_gradient(p: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
     """Derivative of R(p) v along the unit sphere, ∂(R v)/∂p δp = 2 Im(δp p̄) × R v, shape (n, 3, 4)."""
-    turned = rotate(p, v)
-    return np.moveaxis(np.cross(2.0 * np.moveaxis(left(p), 2, 1), turned[:, None, :]), 1, 2)
+    spins = 2.0 * np.swapaxes(left(p), 1, 2)
+    return np.swapaxes(cross(spins, rotate(p, v)[:, None, :]), 1, 2)

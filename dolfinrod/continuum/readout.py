@@ -31,19 +31,23 @@ class Readout:
         d = problem.discretization
         self._order = np.argsort(d.nodes)
         self._to_nodes = backend.discontinuous_basis(d.degree - 1, d.nodes[self._order])
+        self._resultants = backend.discontinuous_basis(d.degree - 1, d.points)
+        self._rotations = backend.lagrange_basis(d.degree, d.points)
+        self._weights = backend.quadrature_weights(2 * d.degree)
         self._mine = slice(0, d.n_owned_cells)
 
-    def gather(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Values by local cell, lined up by rod and element on every rank."""
+    def gather(self, **values: NDArray[np.float64]) -> State:
+        """Arrays by local cell, lined up by rod and element on every rank."""
         d = self.problem.discretization
-        parts = d.comm.allgather((d.cell[self._mine], values[self._mine]))
-        cells = np.concatenate([cell for cell, _ in parts])
-        return np.concatenate([part for _, part in parts])[np.argsort(cells)]
+        mine = {name: value[self._mine] for name, value in values.items()}
+        parts = d.comm.allgather((d.cell[self._mine], mine)) if d.comm.size > 1 else [(d.cell[self._mine], mine)]
+        order = np.argsort(np.concatenate([cell for cell, _ in parts]))
+        return {name: np.concatenate([part[name] for _, part in parts])[order] for name in values}
 
     def state(self) -> State:
         """The whole state by field, each (cells, nodes, components), cells lined up, in working units."""
-        problem = self.problem
-        return {field: self.gather(problem.x[dofs]) for field, dofs in problem.discretization.dofs.items()}
+        x = self.problem.x
+        return self.gather(**{field: x[dofs] for field, dofs in self.problem.discretization.dofs.items()})
 
     def restore(self, state: State) -> None:
         """Make a gathered state the current one."""
@@ -53,23 +57,23 @@ class Readout:
 
     def energy(self) -> float:
         """Strain energy ∫ ½ n·C_n n + ½ m·C_m m ds at the current state [J]."""
-        p, d = self.problem, self.problem.discretization
-        mine = self._mine
-        basis = backend.discontinuous_basis(d.degree - 1, d.points)
-        N, m = (np.einsum("qa,cai->cqi", basis, p.x[d.dofs[f][mine]]) for f in ("N", "m"))
-        q = np.einsum("qa,cai->cqi", backend.lagrange_basis(d.degree, d.points), p.x[d.dofs["q"][mine]])
+        p, d, mine = self.problem, self.problem.discretization, self._mine
+        N, m = (np.einsum("qa,cai->cqi", self._resultants, p.x[d.dofs[f][mine]]) for f in ("N", "m"))
+        q = np.einsum("qa,cai->cqi", self._rotations, p.x[d.dofs["q"][mine]])
         n = p.kinematics.rotate_back(q.reshape(-1, q.shape[2]), N.reshape(-1, N.shape[2])).reshape(N.shape)
         density = np.einsum("cqi,cqij,cqj->cq", n, p.values.C_n[mine], n)
         density += np.einsum("cqi,cqij,cqj->cq", m, p.values.C_m[mine], m)
-        lengths = np.diff(p.ends[mine], axis=1)
-        total = 0.5 * float((density * lengths * backend.quadrature_weights(2 * d.degree)).sum())
+        total = 0.5 * float((density * np.diff(p.ends[mine], axis=1) * self._weights).sum())
         return float(d.comm.allreduce(total)) * p.placement.moment
 
     def histories(self, states: list[State]) -> tuple[RodHistory, ...]:
         """One history a rod from the gathered states."""
         p = self.problem
-        s, R_0 = self.gather(p.s)[:, self._order], self.gather(p.R_0)[:, self._order]
+        reference = self.gather(s=p.s, R_0=p.R_0)
         stacked = {f: np.stack([state[f] for state in states]) for f in ("r", "q", "N", "m")}
+        for f in ("N", "m"):
+            stacked[f] = np.einsum("na,tcai->tcni", self._to_nodes, stacked[f])
+        s, R_0 = reference["s"][:, self._order], reference["R_0"][:, self._order]
         first = np.concatenate([[0], np.cumsum(p.discretization.elements)])
         return tuple(
             self._history(rod, slice(a, b), s[a:b], R_0[a:b], stacked)
@@ -81,7 +85,7 @@ class Readout:
     ) -> RodHistory:
         p, place = self.problem, self.problem.placement
         r, q = (_joined(states[f][:, cells][:, :, self._order]) for f in ("r", "q"))
-        N, m = (_averaged(np.einsum("na,tcai->tcni", self._to_nodes, states[f][:, cells])) for f in ("N", "m"))
+        N, m = (_averaged(states[f][:, cells]) for f in ("N", "m"))
         frames_0 = _joined(R_0.reshape(1, *R_0.shape[:2], 9))[0].reshape(-1, 3, 3)
         turned = p.kinematics.turned_frames(q, place.spin_axes, frames_0)
         n = np.einsum("tsji,tsj->tsi", turned, N @ place.axes.T) * place.force

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from mpi4py import MPI
 
-from dolfinrod.continuum.discretization import Discretization
 from dolfinrod.continuum.kinematics import PlanarRods, SpatialRods
 from dolfinrod.continuum.newton import Newton
 from dolfinrod.continuum.nodes import element_counts
 from dolfinrod.continuum.placement import Placement
+from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
 from dolfinrod.continuum.stepping import Path, StepFailed, walk
@@ -66,31 +66,42 @@ def solve(
     chosen = choose(scene, kinematics)
     started = time.perf_counter()
     rods = PlanarRods() if isinstance(chosen, Planar) else SpatialRods()
-    discretization = Discretization(comm, rods, degree, element_counts(scene, elements))
-    problem = Problem(scene, discretization, Placement.of(scene, chosen))
-    newton, readout = Newton(problem), Readout(problem)
-    path = _begin(scene, readout, start)
-    ready = time.perf_counter()
-    failure = None
+    with borrowed(comm, rods, degree, element_counts(scene, elements)) as (discretization, is_new):
+        problem = Problem(scene, discretization, Placement.of(scene, chosen))
+        newton, readout = Newton(problem), Readout(problem)
+        path = _begin(scene, readout, start)
+        compiling = discretization.seconds_compile if is_new else 0.0
+        ready = time.perf_counter()
+        failure = _walk(newton, readout, path, progress)
+        statistics = Statistics(
+            dofs=discretization.n_dofs,
+            load_steps=len(path.log),
+            newton_iterations=path.iterations,
+            factorizations=newton.factorizations,
+            seconds_compile=compiling,
+            seconds_setup=ready - started - compiling,
+            seconds_solve=time.perf_counter() - ready,
+        )
+        result = _result(problem, readout, path, statistics, converged=failure is None)
+    if failure is not None:
+        advice = _advice(scene)
+        raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice)
+    return result
+
+
+def _walk(
+    newton: Newton, readout: Readout, path: Path, progress: Callable[[StepLog, float], None] | None
+) -> StepFailed | None:
+    """Step to the end; what stopped it, or None."""
     try:
         walk(newton, readout, path, progress)
-    except StepFailed as caught:
-        failure = caught
-    statistics = Statistics(
-        dofs=discretization.n_dofs,
-        load_steps=len(path.log),
-        newton_iterations=path.iterations,
-        factorizations=newton.factorizations,
-        seconds_compile=discretization.seconds_compile,
-        seconds_setup=ready - started - discretization.seconds_compile,
-        seconds_solve=time.perf_counter() - ready,
-    )
-    result = _result(problem, readout, path, statistics, converged=failure is None)
-    if failure is not None:
-        raise NotConverged(
-            result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=_advice(scene)
-        ) from failure
-    return result
+    except StepFailed as failure:
+        return failure
+    except KeyboardInterrupt:
+        return StepFailed(t=path.t[-1], step=0.0, reason="interrupted by the user")
+    finally:
+        newton.close()
+    return None
 
 
 def choose(scene: Scene, kinematics: Planar | Spatial | None) -> Planar | Spatial:

@@ -68,30 +68,29 @@ def walk(newton: Newton, readout: Readout, path: Path, progress: Callable[[StepL
     """
     problem = newton.problem
     scene = problem.scene
-    t = path.t[-1]
-    step = np.inf
+    t, step = path.t[-1], np.inf
     for target in targets(scene, t):
         cuts = 0
         while t < target:
-            step = min(step, target - t)
-            while problem.constraints.largest_turn(t, t + step) > LARGEST_PRESCRIBED_TURN * (1 + 1e-12):
-                step /= 2
-            t_next = target if step >= target - t else t + step
+            trial = min(step, target - t)
+            while problem.constraints.largest_turn(t, t + trial) > LARGEST_PRESCRIBED_TURN * (1 + 1e-12):
+                trial /= 2
+            t_next = target if trial >= target - t else t + trial
             problem.advance_to(t_next)
             outcome = newton.solve()
             path.iterations += outcome.iterations
-            if not outcome.converged:
+            if outcome.converged:
+                t = t_next
+                _accept(path, t, outcome, cuts, readout)
+                step, cuts = (2 * step if cuts == 0 else trial), 0
+                if progress is not None:
+                    progress(path.log[-1], scene.motion.t_end)
+            else:
                 cuts += 1
                 readout.restore(path.states[-1])
                 if cuts > MOST_CUTS:
-                    raise StepFailed(t=t, step=step, reason=outcome.reason)
-                step /= 2
-                continue
-            t = t_next
-            _accept(path, t, outcome, cuts, readout)
-            if progress is not None:
-                progress(path.log[-1], scene.motion.t_end)
-            step, cuts = (2 * step if cuts == 0 else step), 0
+                    raise StepFailed(t=t, step=trial, reason=outcome.reason)
+                step = trial / 2
 
 
 def _accept(path: Path, t: float, outcome: Outcome, cuts: int, readout: Readout) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from inspect import Parameter, signature
 from typing import Any, Protocol
@@ -11,7 +11,7 @@ from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.history import Steady
 from dolfinrod.units import UnitError, has_unit, si
 
-__all__ = ["At", "Field", "Growth", "Kind", "Modulus", "Plain", "Quantity", "Specific"]
+__all__ = ["At", "Field", "Growth", "Kind", "Modulus", "Plain", "Quantity", "Specific", "refuse_unknown"]
 
 
 class Field(Protocol):
@@ -28,11 +28,11 @@ class Field(Protocol):
 class Plain:
     """Numbers without unit, words, and lists of them, as they stand; the constructor judges them."""
 
-    def read(self, value: Any, path: str) -> Any:  # noqa: ARG002 (all fields are read alike)
+    def read(self, value: Any, path: str) -> Any:
         """The value itself."""
         return value
 
-    def write(self, value: Any, path: str) -> Any:  # noqa: ARG002
+    def write(self, value: Any, path: str) -> Any:
         """The value, sets sorted into lists."""
         if isinstance(value, frozenset):
             return sorted(value)
@@ -165,9 +165,9 @@ class Kind:
             raise SceneError(f"must be a table, got {table!r}", field=path)
         refuse_unknown(table, self.fields, path)
         parameters = signature(self.make).parameters.values()
-        needed = {p.name for p in parameters if p.default is Parameter.empty}
-        for name in sorted(needed - table.keys() - known.keys()):
-            raise SceneError("is missing", field=f"{path}.{name}")
+        for name in (p.name for p in parameters if p.default is Parameter.empty):
+            if name not in table and name not in known:
+                raise SceneError("is missing", field=f"{path}.{name}")
         return {**known, **{name: self.fields[name].read(value, f"{path}.{name}") for name, value in table.items()}}
 
     def made(self, values: Mapping[str, Any], path: str) -> Any:
@@ -178,12 +178,13 @@ class Kind:
             raise error.within(path) from None
 
     def write(self, values: Mapping[str, Any], path: str) -> dict[str, Any]:
-        """The table of these values; what is None or empty is left out."""
-        told = {name: value for name, value in values.items() if value is not None and value != frozenset()}
+        """The table of these values; what is None is left out."""
+        told = {name: value for name, value in values.items() if value is not None}
         return {name: self.fields[name].write(value, f"{path}.{name}") for name, value in told.items()}
 
 
-def refuse_unknown(table: Mapping[str, Any], known: Iterable[str], path: str) -> None:
+def refuse_unknown(table: Mapping[str, Any], known: Collection[str], path: str) -> None:
     """Every key of a table is known."""
-    for name in table.keys() - set(known):
-        raise SceneError(f"is not known here; known are {', '.join(known)}", field=f"{path}.{name}".lstrip("."))
+    for name in table:
+        if name not in known:
+            raise SceneError(f"is not known here; known are {', '.join(known)}", field=f"{path}.{name}".lstrip("."))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-
-import numpy as np
+from operator import itemgetter
 
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.quantity import entries, number
@@ -72,8 +72,11 @@ def factor(history: History, t: float, t_end: float) -> float:
         return 1.0
     if callable(history):
         return number(history(t), f"history({t})")
-    times, factors = zip(*history, strict=True)
-    return float(np.interp(t, times, factors))
+    after = bisect_right(history, t, key=itemgetter(0))
+    if after in (0, len(history)):
+        return float(history[min(after, len(history) - 1)][1])
+    (t_0, f_0), (t_1, f_1) = history[after - 1 : after + 1]
+    return f_0 + (t - t_0) / (t_1 - t_0) * (f_1 - f_0)
 
 
 def kinks(history: History) -> tuple[float, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dolfinrod.scene.fields import At, Growth, Kind, Modulus, Plain, Quantity
+from dolfinrod.scene.fields import At, Field, Growth, Kind, Modulus, Plain, Quantity
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, PointForce, PointMoment
 from dolfinrod.scene.motion import Static
 from dolfinrod.scene.rod import Rod
@@ -12,7 +12,13 @@ from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed
 __all__ = ["LOADS", "MOTIONS", "RODS", "SECTION", "SECTIONS", "SUPPORTS"]
 
 METRE, NEWTON, NEWTON_METRE = Quantity("m"), Quantity("N"), Quantity("N*m")
-MATERIAL = {"E": Modulus(), "G": Modulus(), "density": Quantity("kg/m**3"), "shear_factor": Plain(), "rigid": Plain()}
+MATERIAL: dict[str, Field] = {
+    "E": Modulus(),
+    "G": Modulus(),
+    "density": Quantity("kg/m**3"),
+    "shear_factor": Plain(),
+    "rigid": Plain(),
+}
 SECTION = Kind(
     Section,
     {
@@ -31,7 +37,7 @@ SECTIONS = {
     "rectangle": Kind(Section.rectangle, {"width": METRE, "height": METRE, "torsion": Plain(), **MATERIAL}),
     "ramie": Kind(Section.ramie, {"rigid": Plain()}),
 }
-FRAMED = {"start": METRE, "direction": Plain(), "d2": Plain(), "pretwist": Quantity("rad/m")}
+FRAMED: dict[str, Field] = {"start": METRE, "direction": Plain(), "d2": Plain(), "pretwist": Quantity("rad/m")}
 RODS = {
     "straight": Kind(Rod.straight, {"length": METRE, **FRAMED}),
     "arc": Kind(
@@ -48,7 +54,7 @@ RODS = {
     "curved": Kind(Rod.curved, {"length": METRE, "curvature": Quantity("1/m"), **FRAMED}),
     "through": Kind(Rod.through, {"points": METRE, "d2": Plain(), "pretwist": Quantity("rad/m")}),
 }
-HERE = {"at": At(), "rod": Plain()}
+HERE: dict[str, Field] = {"at": At(), "rod": Plain()}
 SUPPORTS = {
     "clamp": Kind(Clamp, HERE),
     "pin": Kind(Pin, HERE),
@@ -58,8 +64,8 @@ SUPPORTS = {
         {"displacement": Quantity("m", word="free"), "rotation": Quantity("rad"), "history": Growth(), **HERE},
     ),
 }
-FORCE = {"force": NEWTON, "history": Growth(), **HERE}
-MOMENT = {"moment": NEWTON_METRE, "history": Growth(), **HERE}
+FORCE: dict[str, Field] = {"force": NEWTON, "history": Growth(), **HERE}
+MOMENT: dict[str, Field] = {"moment": NEWTON_METRE, "history": Growth(), **HERE}
 LOADS = {
     "point_force": Kind(PointForce, FORCE),
     "point_moment": Kind(PointMoment, MOMENT),

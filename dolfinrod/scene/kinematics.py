@@ -37,7 +37,7 @@ class Planar:
     def __post_init__(self) -> None:
         assign(
             self,
-            normal=None if self.normal is None else vector(unit(self.normal, "Planar.normal") + 0.0, "Planar.normal"),
+            normal=None if self.normal is None else vector(unit(self.normal, "Planar.normal"), "Planar.normal"),
             origin=None if self.origin is None else vector(self.origin, "Planar.origin", "m"),
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import isfinite
+from math import inf, isfinite, nan
 from numbers import Integral, Real
 from typing import Literal
 
@@ -58,9 +58,13 @@ def number(value: object, field: str, unit: str = "") -> float:
     Raises:
         SceneError: Not a number, infinite or nan.
     """
-    if not isinstance(value, Real) or isinstance(value, (bool, np.bool_)) or not isfinite(value):
+    try:
+        x = float(value) if isinstance(value, Real) and not isinstance(value, bool) else nan
+    except OverflowError:
+        x = inf
+    if not isfinite(x):
         raise SceneError(f"must be a finite number{f' [{unit}]' * bool(unit)}, got {spoken(value, unit)}", field=field)
-    return float(value)
+    return x
 
 
 def positive(value: object, field: str, unit: str = "") -> float:
@@ -130,7 +134,7 @@ def place(value: object, field: str) -> Place:
 
 def names(value: object, field: str, known: Sequence[str]) -> frozenset[str]:
     """A set of names out of those known."""
-    given = frozenset(value) if isinstance(value, Iterable) and not isinstance(value, str) else frozenset((value,))
-    if not given <= frozenset(known):
+    given = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
+    if any(name not in known for name in given):
         raise SceneError(f"must be a set of names out of {', '.join(known)}, got {value!r}", field=field)
     return frozenset(str(name) for name in given)

@@ -185,7 +185,7 @@ def unit(v: VectorLike, field: str) -> Array:
     Raises:
         SceneError: A vector that is zero or not finite.
     """
-    x = np.array(vector(v, field))
+    x = np.array(vector(v, field)) + 0.0  # no minus zeros
     largest = float(np.abs(x).max())
     if largest == 0.0:
         raise SceneError(f"must point somewhere, got {tuple(x.tolist())}", field=field)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -49,9 +49,10 @@ class Spline:
     d2: VectorLike | None = None
 
     def __post_init__(self) -> None:
-        points = tuple(vector(p, f"Rod.points[{i}]", "m") for i, p in enumerate(self.points))
+        given = self.points if isinstance(self.points, Iterable) else ()
+        points = tuple(vector(p, f"Rod.points[{i}]", "m") for i, p in enumerate(given))
         if len(points) < 2:
-            raise SceneError(f"must be at least two, got {len(points)}", field="Rod.points")
+            raise SceneError(f"must be at least two points [m], got {self.points!r}", field="Rod.points")
         chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
         for i in np.flatnonzero(chords <= 1e-12 * chords.sum()) + 1:
             raise SceneError(f"must lie apart from the point before, got {points[i]} m", field=f"Rod.points[{i}]")

@@ -96,7 +96,7 @@ def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
     sections = list(dict.fromkeys(rod.section for rod in scene.rods))
     names = {section: f"section_{i}" for i, section in enumerate(sections)}
     tables = {
-        "section": {name: _written(SECTION, section, f"section.{name}") for section, name in names.items()},
+        "section": {name: _stiffness(section, f"section.{name}") for section, name in names.items()},
         "rods": [_shape(rod, f"rods[{i}]") | {"section": names[rod.section]} for i, rod in enumerate(scene.rods)],
         "supports": [_named(SUPPORTS, part, f"supports[{i}]") for i, part in enumerate(scene.supports)],
         "loads": [_named(LOADS, part, f"loads[{i}]") for i, part in enumerate(scene.loads)],
@@ -175,6 +175,13 @@ def _written(kind: Kind, record: object, path: str) -> dict[str, Any]:
     return kind.write({name: getattr(record, name) for name in kind.fields}, path)
 
 
+def _stiffness(section: Section, path: str) -> dict[str, Any]:
+    """The table of a section; what is rigid has no stiffness to tell."""
+    untold = {name for strain, name in (("extension", "EA"), ("shear", "GA")) if strain in section.rigid}
+    told = {name: getattr(section, name) for name in SECTION.fields if name not in untold}
+    return SECTION.write(told | {"rigid": section.rigid or None}, path)
+
+
 def _named(kinds: Mapping[str, Kind], record: object, path: str) -> dict[str, Any]:
     """The table that names the kind of a record and holds its table."""
     ((name, kind),) = ((name, kind) for name, kind in kinds.items() if kind.make is type(record))
@@ -184,12 +191,14 @@ def _named(kinds: Mapping[str, Kind], record: object, path: str) -> dict[str, An
 def _shape(rod: Rod, path: str) -> dict[str, Any]:
     """The table that names the shape of a rod; an arc is written as curved, to keep every digit of its curvature."""
     shape = rod.shape
+    values: dict[str, Any] = {"pretwist": rod.pretwist or None}
     if isinstance(shape, UniformCurvature):
-        bent = any(shape.kappa)
-        values = {"length": shape.length, "curvature": shape.kappa if bent else None, "start": shape.start}
-        name, values = "curved" if bent else "straight", {**values, "direction": shape.direction, "d2": shape.d2}
+        name = "curved" if any(shape.kappa) else "straight"
+        values |= {"length": shape.length, "start": shape.start, "direction": shape.direction, "d2": shape.d2}
+        values["curvature"] = shape.kappa if any(shape.kappa) else None
     elif isinstance(shape, Spline):
-        name, values = "through", {"points": shape.points, "d2": shape.d2}
+        name = "through"
+        values |= {"points": shape.points, "d2": shape.d2}
     else:
         raise SceneError(f"must be a shape of this package to be written to a file, got {shape!r}", field=path)
-    return {name: RODS[name].write({**values, "pretwist": rod.pretwist or None}, f"{path}.{name}")}
+    return {name: RODS[name].write(values, f"{path}.{name}")}

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["stored_energy", "symmetric"]
 
 
-def stored_energy(q: Configuration, C_n: Expr, C_m: Expr, r_0: Expr, ds: ufl.Measure) -> ufl.Form:
+def stored_energy(q: Configuration, C_n: Expr, C_m: Expr, r_0: Expr) -> Expr:
     """Hellinger-Reissner energy of the strains R(p)ᵀr′ − r₀′ and κ(p).
 
     Π = ∫ N·(r′ − R(p) r₀′) − ½ n·C_n n + m·κ(p) − ½ m·C_m m ds,  n = R(p)ᵀ N
@@ -30,10 +30,9 @@ def stored_energy(q: Configuration, C_n: Expr, C_m: Expr, r_0: Expr, ds: ufl.Mea
         C_n: Compliance of stretch and shear, shape (d, d) [1/N].
         C_m: Compliance of twist and bending, shape (n_spin, n_spin) [1/(N m²)].
         r_0: Stress-free centreline, interpolated like r.
-        ds: Measure along the rods.
 
     Returns:
-        The functional Π [J].
+        The integrand, energy per length [N].
 
     Source: Simo & Vu-Quoc 1986 (strains); Herrmann et al., arXiv 2507.01552 (mixed form).
     """
@@ -41,7 +40,7 @@ def stored_energy(q: Configuration, C_n: Expr, C_m: Expr, r_0: Expr, ds: ufl.Mea
     γ = q.r_s - q.R * r_0.dx(0)
     forces = ufl.inner(q.N, γ) - ufl.inner(n, C_n * n) / 2
     moments = ufl.inner(q.m, q.κ) - ufl.inner(q.m, C_m * q.m) / 2
-    return (forces + moments) * ds
+    return forces + moments
 
 
 def symmetric(c: Expr) -> Expr:

@@ -11,9 +11,9 @@ if TYPE_CHECKING:
 __all__ = ["node_condition"]
 
 
-def node_condition(integrand: Expr, degree: int, ds: ufl.Measure) -> ufl.Form:
+def node_condition(integrand: Expr, ds_nodes: ufl.Measure) -> ufl.Form:
     """Σ over nodes of weight × integrand, by the Gauss-Lobatto rule whose points are the nodes of P_k.
 
     With ½ λ (p·p − 1) as integrand every nodal quaternion is exactly of unit norm and λ is its multiplier.
     """
-    return integrand * ds(metadata={"quadrature_rule": "GLL", "quadrature_degree": 2 * degree - 1})
+    return integrand * ds_nodes

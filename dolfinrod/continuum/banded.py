@@ -1,0 +1,69 @@
+"""Direct solution of the tangent as a band: rods are chains, and LAPACK pivots within the band."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg.lapack import dgbtrf, dgbtrs
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from petsc4py import PETSc
+
+__all__ = ["Band", "BandedLU"]
+
+
+class Band:
+    """Where the entries of a sparse matrix lie once reverse Cuthill-McKee has lined its unknowns up.
+
+    Args:
+        A: Matrix on one rank, with its final pattern.
+
+    Attributes:
+        width: Entries on either side of the diagonal.
+    """
+
+    def __init__(self, A: PETSc.Mat) -> None:
+        pointers, columns, _ = A.getValuesCSR()
+        n = A.getSize()[0]
+        self.order: NDArray[np.int32] = A.getOrdering("rcm")[0].getIndices()
+        place = np.empty(n, dtype=np.int64)
+        place[self.order] = np.arange(n)
+        row, column = place[np.repeat(np.arange(n), np.diff(pointers))], place[columns]
+        self.width = int(np.abs(row - column).max())
+        # LAPACK's layout for dgbtrf, column by column: `width` rows for fill by pivoting, then 2 width + 1 diagonals.
+        self.rows = 3 * self.width + 1
+        self.entries = column * self.rows + 2 * self.width + row - column
+        self.storage = np.zeros(n * self.rows)
+
+
+class BandedLU:
+    """A PETSc preconditioner (type python) that is LAPACK's banded LU with partial pivoting.
+
+    Cost is linear in the number of elements; a zero compliance, whose diagonal is zero, needs the pivoting.
+
+    Args:
+        band: Layout of the matrix.
+    """
+
+    def __init__(self, band: Band) -> None:
+        self._band = band
+
+    def setUp(self, pc: PETSc.PC) -> None:
+        """Factorise the operator."""
+        band = self._band
+        band.storage[:] = 0.0
+        band.storage[band.entries] = pc.getOperators()[1].getValuesCSR()[2]
+        matrix = band.storage.reshape(-1, band.rows).T
+        self._lu, self._pivots, info = dgbtrf(matrix, band.width, band.width, overwrite_ab=True)
+        self._singular = info > 0
+
+    def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
+        """Solve; not a number where a pivot is zero, which SNES takes for a failed step."""
+        band = self._band
+        if self._singular:
+            x.set(np.nan)
+            return
+        solution, _ = dgbtrs(self._lu, band.width, band.width, b.array_r[band.order], self._pivots)
+        x.array[band.order] = solution
