@@ -8,8 +8,9 @@ import numpy as np
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
     from petsc4py import PETSc
+
+    from numpy.typing import NDArray
 
 __all__ = ["Band", "BandedLU"]
 
@@ -45,7 +46,12 @@ class BandedLU:
 
     Args:
         band: Layout of the matrix.
+
+    Attributes:
+        singular: Whether the last factorisation met a zero pivot.
     """
+
+    singular = False
 
     def __init__(self, band: Band) -> None:
         self._band = band
@@ -57,12 +63,12 @@ class BandedLU:
         band.storage[band.entries] = pc.getOperators()[1].getValuesCSR()[2]
         matrix = band.storage.reshape(-1, band.rows).T
         self._lu, self._pivots, info = dgbtrf(matrix, band.width, band.width, overwrite_ab=True)
-        self._singular = info > 0
+        self.singular = info > 0
 
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
-        """Solve; not a number where a pivot is zero, which SNES takes for a failed step."""
+        """Solve; not a number where a pivot is zero, which ends SNES."""
         band = self._band
-        if self._singular:
+        if self.singular:
             x.set(np.nan)
             return
         solution, _ = dgbtrs(self._lu, band.width, band.width, b.array_r[band.order], self._pivots)

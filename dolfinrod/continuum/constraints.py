@@ -50,7 +50,11 @@ class Constraints:
             for (rod, s), supports in places.items()
             if (node := locate(rod, s)) is not None
         ]
-        self.turning = [s for s in scene.supports if isinstance(s, Prescribed) and s.rotation is not None]
+        self._turning = [
+            (s.history, float(np.linalg.norm(np.asarray(s.rotation))))
+            for s in scene.supports
+            if isinstance(s, Prescribed) and s.rotation is not None
+        ]
         self.dofs = np.concatenate([np.zeros(0, np.int32), *(d for d, _ in self._parts(0.0))]).astype(np.int32)
 
     def values(self, t: float) -> NDArray[np.float64]:
@@ -60,10 +64,10 @@ class Constraints:
     def largest_turn(self, t_0: float, t_1: float) -> float:
         """Largest change of a prescribed rotation between two times [rad]."""
         turns = [
-            abs(factor(s.history, t_1, self._t_end) - factor(s.history, t_0, self._t_end)) * np.linalg.norm(s.rotation)
-            for s in self.turning
+            abs(factor(history, t_1, self._t_end) - factor(history, t_0, self._t_end)) * angle
+            for history, angle in self._turning
         ]
-        return float(max(turns, default=0.0))
+        return max(turns, default=0.0)
 
     def _parts(self, t: float) -> list[tuple[NDArray[np.int32], NDArray[np.float64]]]:
         parts = []

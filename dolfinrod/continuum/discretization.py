@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.continuum import backend
+from dolfinrod.continuum import backend, reference
 from dolfinrod.continuum.banded import Band
 from dolfinrod.continuum.forms import forms_of
 
 if TYPE_CHECKING:
     from mpi4py import MPI
+
     from dolfinx import fem
     from numpy.typing import NDArray
 
@@ -66,8 +67,8 @@ class Discretization:
         self.seconds_compile = time.perf_counter() - started
         self.mesh, self.cell = backend.interval_mesh(comm, nodes)
         self.n_owned_cells = backend.n_owned_cells(self.mesh)
-        self.nodes = backend.lagrange_nodes(degree)
-        self.points = backend.quadrature_points(2 * degree)
+        self.nodes = reference.lagrange_nodes(degree)
+        self.points = reference.quadrature_points(2 * degree)
         self._make_spaces()
         self._bind_forms()
         index_map = self.space.dofmap.index_map

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import ufl
 from mpi4py import MPI
 
-from dolfinrod.continuum import backend
+import ufl
+
+from dolfinrod.continuum import backend, reference
 from dolfinrod.continuum.terms.elastic import stored_energy, symmetric
 from dolfinrod.continuum.terms.gauge import node_condition
 
@@ -53,7 +54,7 @@ class Forms:
         q = kinematics.configuration(ufl.split(x))
         energy = stored_energy(q, symmetric(C_n), symmetric(C_m), r_0) * ds
         if q.gauge is not None:
-            energy += node_condition(q.gauge, dx(metadata=backend.node_rule(k)))
+            energy += node_condition(q.gauge, dx(metadata=reference.node_rule(k)))
         residual = ufl.derivative(energy, x, δx)
         self.residual = backend.FormKind(comm, residual)
         self.tangent = backend.FormKind(comm, ufl.derivative(residual, x, Δx))

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from ufl.core.expr import Expr
 
+    Array = NDArray[np.float64]
+
 __all__ = ["Configuration", "Kinematics", "PlanarRods", "SpatialRods"]
 
 
@@ -56,20 +58,53 @@ class Kinematics(Protocol):
     n_spin: int
     fields: tuple[str, ...]
 
-    def elements(self, degree: int) -> list[ufl.FiniteElementBase]: ...
-    def configuration(self, x: tuple[Expr, ...]) -> Configuration: ...
-    def at_rest(self, n: int) -> NDArray[np.float64]: ...
-    def increment(self, q: NDArray[np.float64], dq: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def turn(self, q: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def compose(self, spins: list[NDArray[np.float64]]) -> NDArray[np.float64]: ...
-    def rotate(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def rotate_gradient(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def rotate_back(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def spin(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def body_spin(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def turned_frames(
-        self, q: NDArray[np.float64], spin_axes: NDArray[np.float64], frames: NDArray[np.float64]
-    ) -> NDArray[np.float64]: ...
+    def elements(self, degree: int) -> list[ufl.FiniteElementBase]:
+        """Element of each field."""
+        ...
+
+    def configuration(self, x: tuple[Expr, ...]) -> Configuration:
+        """What the terms see of the fields."""
+        ...
+
+    def at_rest(self, n: int) -> Array:
+        """n rotations of no turn."""
+        ...
+
+    def increment(self, q: Array, dq: Array) -> Array:
+        """Spins that changes of the rotation unknown stand for."""
+        ...
+
+    def turn(self, q: Array, theta: Array) -> Array:
+        """Rotations turned by spins."""
+        ...
+
+    def compose(self, spins: list[Array]) -> Array:
+        """One rotation of spins applied one after the other."""
+        ...
+
+    def rotate(self, q: Array, v: Array) -> Array:
+        """R v."""
+        ...
+
+    def rotate_back(self, q: Array, v: Array) -> Array:
+        """Rᵀ v, also between the nodes."""
+        ...
+
+    def rotate_gradient(self, q: Array, v: Array) -> Array:
+        """∂(R v)/∂q."""
+        ...
+
+    def spin(self, q: Array) -> Array:
+        """∂δθ/∂δq in space, linear in q."""
+        ...
+
+    def body_spin(self, q: Array) -> Array:
+        """∂δθ/∂δq in the turned frame, linear in q."""
+        ...
+
+    def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
+        """Section frames in space of turned stress-free frames."""
+        ...
 
 
 class SpatialRods:
@@ -82,7 +117,7 @@ class SpatialRods:
     name = "spatial"
     dim = 3
     n_spin = 3
-    fields = ("r", "q", "multiplier", "N", "m")
+    fields: tuple[str, ...] = ("r", "q", "multiplier", "N", "m")
 
     def elements(self, degree: int) -> list[ufl.FiniteElementBase]:
         """P_k for r, p and λ; discontinuous P_{k−1} for N and m."""
@@ -101,50 +136,48 @@ class SpatialRods:
             gauge=λ[0] * (ufl.inner(p, p) - 1) / 2,
         )
 
-    def at_rest(self, n: int) -> NDArray[np.float64]:
+    def at_rest(self, n: int) -> Array:
         """n quaternions of no turn."""
         return np.tile([1.0, 0.0, 0.0, 0.0], (n, 1))
 
-    def increment(self, q: NDArray[np.float64], dq: NDArray[np.float64]) -> NDArray[np.float64]:
+    def increment(self, q: Array, dq: Array) -> Array:
         """Rotation vectors in space that a change δp of unit quaternions stands for, 2 Im(δp p̄), (n, 3)."""
         return quaternion.spin(q, dq)
 
-    def turn(self, q: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    def turn(self, q: Array, theta: Array) -> Array:
         """exp(½ θ) p, of unit norm to round-off."""
         turned = quaternion.multiply(quaternion.exponential(theta), q)
         return turned / np.linalg.norm(turned, axis=1, keepdims=True)
 
-    def compose(self, spins: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    def compose(self, spins: list[Array]) -> Array:
         """Rotation unknown of rotation vectors applied one after the other, in space, shape (4,)."""
         q = np.array([1.0, 0.0, 0.0, 0.0])
         for theta in spins:
             q = quaternion.multiply(quaternion.exponential(theta), q)
         return q
 
-    def rotate(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rotate(self, q: Array, v: Array) -> Array:
         """R(p) v, (n, 3)."""
         return quaternion.rotate(q, v)
 
-    def rotate_back(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rotate_back(self, q: Array, v: Array) -> Array:
         """R(p)ᵀ v for quaternions of any norm, (n, 3)."""
         p = q / np.linalg.norm(q, axis=1, keepdims=True)
         return quaternion.rotate(p * [1.0, -1.0, -1.0, -1.0], v)
 
-    def rotate_gradient(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rotate_gradient(self, q: Array, v: Array) -> Array:
         """∂(R v)/∂p on the unit sphere, (n, 3, 4)."""
         return quaternion.rotate_gradient(q, v)
 
-    def spin(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    def spin(self, q: Array) -> Array:
         """Spatial spin a change of p stands for, δθ = 2 Im(δp p̄), linear in p, (n, 3, 4)."""
         return 2.0 * quaternion.left(q)
 
-    def body_spin(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    def body_spin(self, q: Array) -> Array:
         """Spin in the turned frame, 2 Im(p̄ δp), linear in p, (n, 3, 4)."""
         return 2.0 * quaternion.right(q)
 
-    def turned_frames(
-        self, q: NDArray[np.float64], spin_axes: NDArray[np.float64], frames: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames R(p) R₀ in space, shapes (t, s, 4), (3, 3), (s, 3, 3) → (t, s, 3, 3)."""
         columns = [quaternion.rotate(q, frames[None, :, :, j] + 0.0 * q[..., :1]) for j in range(3)]
         return np.stack(columns, axis=-1)
@@ -156,7 +189,7 @@ class PlanarRods:
     name = "planar"
     dim = 2
     n_spin = 1
-    fields = ("r", "q", "N", "m")
+    fields: tuple[str, ...] = ("r", "q", "N", "m")
 
     def elements(self, degree: int) -> list[ufl.FiniteElementBase]:
         """P_k for r and φ; discontinuous P_{k−1} for N and m."""
@@ -169,48 +202,46 @@ class PlanarRods:
         c, s = ufl.cos(φ[0]), ufl.sin(φ[0])
         return Configuration(r_s=r.dx(0), R=ufl.as_matrix([[c, -s], [s, c]]), κ=φ.dx(0), N=N, m=m, gauge=None)
 
-    def at_rest(self, n: int) -> NDArray[np.float64]:
+    def at_rest(self, n: int) -> Array:
         """n angles of no turn."""
         return np.zeros((n, 1))
 
-    def increment(self, q: NDArray[np.float64], dq: NDArray[np.float64]) -> NDArray[np.float64]:
+    def increment(self, q: Array, dq: Array) -> Array:
         """The change of angle itself, (n, 1)."""
         return dq
 
-    def turn(self, q: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    def turn(self, q: Array, theta: Array) -> Array:
         """φ + θ."""
         return q + theta
 
-    def compose(self, spins: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    def compose(self, spins: list[Array]) -> Array:
         """Sum of the angles, shape (1,)."""
         return np.sum([np.zeros(1), *spins], axis=0)
 
-    def rotate(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rotate(self, q: Array, v: Array) -> Array:
         """R(φ) v, (n, 2)."""
         c, s = np.cos(q[:, 0]), np.sin(q[:, 0])
         return np.stack([c * v[:, 0] - s * v[:, 1], s * v[:, 0] + c * v[:, 1]], axis=1)
 
-    def rotate_back(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rotate_back(self, q: Array, v: Array) -> Array:
         """R(φ)ᵀ v, (n, 2)."""
         return self.rotate(-q, v)
 
-    def rotate_gradient(self, q: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:
+    def rotate_gradient(self, q: Array, v: Array) -> Array:
         """∂(R v)/∂φ, (n, 2, 1)."""
         turned = self.rotate(q, v)
         return np.stack([-turned[:, 1], turned[:, 0]], axis=1)[:, :, None]
 
-    def spin(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    def spin(self, q: Array) -> Array:
         """Spin about the normal, δφ, (n, 1, 1)."""
         return np.ones((len(q), 1, 1))
 
-    def body_spin(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    def body_spin(self, q: Array) -> Array:
         """The same in the turned frame, (n, 1, 1)."""
         return np.ones((len(q), 1, 1))
 
-    def turned_frames(
-        self, q: NDArray[np.float64], spin_axes: NDArray[np.float64], frames: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """Section frames R(φ) R₀ in space, turned about the normal, shapes (t, s, 1), (3, 1), (s, 3, 3) → (t, s, 3, 3)."""
+    def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
+        """Section frames R(φ) R₀ in space, shapes (t, s, 1), (3, 1), (s, 3, 3) → (t, s, 3, 3)."""
         p = quaternion.exponential(q * spin_axes[:, 0])
         columns = [quaternion.rotate(p, frames[None, :, :, j] + 0.0 * q) for j in range(3)]
         return np.stack(columns, axis=-1)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from dolfinrod.continuum.terms.point import PointTerm
     from dolfinrod.scene import Scene
     from dolfinrod.scene.history import History
+    from dolfinrod.scene.loads import PointLoad
 
 __all__ = ["line_loads", "point_terms"]
 
@@ -47,7 +48,9 @@ def line_loads(
             rhoA = np.array([r.section.rhoA for r in scene.rods], dtype=float)
             f = rhoA[rod, None, None] * np.asarray(load.g) * np.ones((*s.shape, 1))
         elif isinstance(load, LineForce):
-            acts = np.ones_like(s) if load.rod is None else np.where(rod == load.rod, 1.0, 0.0)[:, None] * np.ones_like(s)
+            acts = (
+                np.ones_like(s) if load.rod is None else np.where(rod == load.rod, 1.0, 0.0)[:, None] * np.ones_like(s)
+            )
             if load.between is not None:
                 a, b = (end / placement.length for end in load.between)
                 acts = acts * ((s > a) & (s < b))
@@ -56,7 +59,7 @@ def line_loads(
             continue
         histories.append(load.history)
         fields.append(f @ placement.axes / per_length)
-    return histories, np.array(fields).reshape(-1, *s.shape, placement.axes.shape[1])
+    return histories, np.array(fields).reshape(len(fields), *s.shape, placement.axes.shape[1])
 
 
 def point_terms(
@@ -71,9 +74,9 @@ def point_terms(
         locate: Dofs of the node at (rod, s) if this rank owns it, else None.
     """
     builders = []
-    for kind, gather in ((PointForce, _force), (PointMoment, _moment), (FollowerForce, _force), (FollowerMoment, _moment)):
+    for kind in (PointForce, PointMoment, FollowerForce, FollowerMoment):
         rows = [
-            (node, gather(load, scene.rods[rod].frames(np.array([s]))[0], placement), load.history)
+            (node, _vector(load, scene.rods[rod].frames(s), placement), load.history)
             for load in scene.loads
             if isinstance(load, kind)
             for rod, s in scene.location(load.at, load.rod)
@@ -84,20 +87,19 @@ def point_terms(
     return builders
 
 
-def _force(load: PointForce | FollowerForce, R_0: NDArray[np.float64], placement: Placement) -> NDArray[np.float64]:
-    force = np.asarray(load.force)
-    spatial = force if isinstance(load, PointForce) else R_0 @ force
-    return spatial @ placement.axes / placement.force
-
-
-def _moment(load: PointMoment | FollowerMoment, R_0: NDArray[np.float64], placement: Placement) -> NDArray[np.float64]:
-    moment = np.asarray(load.moment)
-    spatial = moment if isinstance(load, PointMoment) else R_0 @ moment
-    return spatial @ placement.spin_axes / placement.moment
+def _vector(load: PointLoad, R_0: NDArray[np.float64], placement: Placement) -> NDArray[np.float64]:
+    """Force or moment in working directions and units; that of a follower in stress-free directions."""
+    turn = np.eye(3) if isinstance(load, PointForce | PointMoment) else R_0
+    if isinstance(load, PointForce | FollowerForce):
+        return turn @ np.asarray(load.force) @ placement.axes / placement.force
+    return turn @ np.asarray(load.moment) @ placement.spin_axes / placement.moment
 
 
 def _builder(
-    kind: type, rows: list[tuple[dict[str, NDArray[np.int32]], NDArray[np.float64], History]], kin: Kinematics, t_end: float
+    kind: type[PointLoad],
+    rows: list[tuple[dict[str, NDArray[np.int32]], NDArray[np.float64], History]],
+    kinematics: Kinematics,
+    t_end: float,
 ) -> Callable[[float], PointTerm]:
     r = np.array([node["r"] for node, _, _ in rows])
     q = np.array([node["q"] for node, _, _ in rows])
@@ -109,9 +111,9 @@ def _builder(
         if kind is PointForce:
             return DeadForces(r, values)
         if kind is PointMoment:
-            return DeadMoments(kin, q, values)
+            return DeadMoments(kinematics, q, values)
         if kind is FollowerForce:
-            return FollowerForces(kin, r, q, values)
-        return FollowerMoments(kin, q, values)
+            return FollowerForces(kinematics, r, q, values)
+        return FollowerMoments(kinematics, q, values)
 
     return at

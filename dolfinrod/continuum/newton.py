@@ -11,9 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
 from mpi4py import MPI
 from petsc4py import PETSc
+
+import numpy as np
 
 from dolfinrod.continuum.banded import BandedLU
 
@@ -34,7 +35,9 @@ MOST_ITERATIONS = 50
 REASONS = {
     PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "the residual is not a number",
     PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: f"Newton's method did not settle in {MOST_ITERATIONS} iterations",
-    PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE: "the tangent is singular: something is free to move, or a load is critical",
+    PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE: (
+        "the tangent is singular: something is free to move, or a load is critical"
+    ),
     PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_DOMAIN: "the residual is not a number",
 }
 
@@ -72,6 +75,7 @@ class Newton:
         self._m = self._linear[-1]
         self._A, self._X, self._F = d.matrix, d.x.vector.duplicate(), d.x.vector.duplicate()
         self._size = np.inf
+        self._lu: BandedLU | None = None
         self.snes = self._make_snes(d.comm)
 
     def _make_snes(self, comm: MPI.Comm) -> PETSc.SNES:
@@ -102,7 +106,8 @@ class Newton:
             pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
         else:
             pc.setType(PETSc.PC.Type.PYTHON)
-            pc.setPythonContext(BandedLU(band))
+            self._lu = BandedLU(band)
+            pc.setPythonContext(self._lu)
 
     def solve(self) -> Outcome:
         """Equilibrium at the problem's pseudo-time, from the problem's state; on failure the state is lost."""
@@ -112,6 +117,8 @@ class Newton:
         self._take(self._X)
         iterations, reason = self.snes.getIterationNumber(), self.snes.getConvergedReason()
         self.factorizations += iterations
+        if self._lu is not None and self._lu.singular:
+            reason = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
         words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
         return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words)
 
@@ -168,4 +175,3 @@ class Newton:
         if iteration > 0 and self._size < TOLERANCE:
             return reasons.CONVERGED_SNORM_RELATIVE
         return reasons.DIVERGED_MAX_IT if iteration >= MOST_ITERATIONS else reasons.ITERATING
-

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,8 +10,6 @@ import numpy as np
 from dolfinrod.scene import SceneError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
 
     from dolfinrod.scene import Scene
@@ -24,13 +23,16 @@ def element_counts(scene: Scene, elements: int | Sequence[int]) -> tuple[int, ..
     Raises:
         SceneError: Not a positive whole number for every rod.
     """
-    counts = [elements] * len(scene.rods) if isinstance(elements, int) else list(elements)
+    if isinstance(elements, Sequence) and not isinstance(elements, str):
+        counts = list(elements)
+    else:
+        counts = [elements] * len(scene.rods)
     if len(counts) != len(scene.rods):
         raise SceneError(f"elements must be one number or one for each of the {len(scene.rods)} rods, got {elements}")
     for n in counts:
-        if not isinstance(n, (int, np.integer)) or isinstance(n, bool) or n < 1:
+        if not isinstance(n, int | np.integer) or isinstance(n, bool) or n < 1:
             raise SceneError(f"elements must be a positive whole number, got {n!r}")
-    return tuple(int(n) for n in counts)
+    return tuple(map(int, counts))
 
 
 def element_ends(scene: Scene, rod: int, n: int) -> NDArray[np.float64]:

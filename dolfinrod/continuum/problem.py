@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
 from petsc4py import PETSc
+
+import numpy as np
 
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.constraints import Constraints
@@ -194,12 +195,12 @@ class Problem:
     ) -> None:
         """Add one dense block for each row of (rows, columns), leaving out held dofs."""
         n, m = rows.shape[1], columns.shape[1]
-        I = np.repeat(rows, m, axis=1).ravel()  # noqa: E741 (rows of a sparse matrix)
+        I = np.repeat(rows, m, axis=1).ravel()
         J = np.tile(columns, (1, n)).ravel()
         V = values.reshape(-1)
         if excluded:
             keep = (self._excluded[I] == 0) & (self._excluded[J] == 0)
-            I, J, V = I[keep], J[keep], V[keep]  # noqa: E741
+            I, J, V = I[keep], J[keep], V[keep]
         if len(I):
             pointers = np.arange(len(I) + 1, dtype=PETSc.IntType)
             A.setValuesLocalIJV(pointers, J, V, addv=PETSc.InsertMode.ADD_VALUES, rowmap=I.astype(PETSc.IntType))

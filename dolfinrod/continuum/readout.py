@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.continuum import backend
+from dolfinrod.continuum import reference
 from dolfinrod.result import RodHistory
 
 if TYPE_CHECKING:
@@ -30,10 +31,10 @@ class Readout:
         self.problem = problem
         d = problem.discretization
         self._order = np.argsort(d.nodes)
-        self._to_nodes = backend.discontinuous_basis(d.degree - 1, d.nodes[self._order])
-        self._resultants = backend.discontinuous_basis(d.degree - 1, d.points)
-        self._rotations = backend.lagrange_basis(d.degree, d.points)
-        self._weights = backend.quadrature_weights(2 * d.degree)
+        self._to_nodes = reference.discontinuous_basis(d.degree - 1, d.nodes[self._order])
+        self._resultants = reference.discontinuous_basis(d.degree - 1, d.points)
+        self._rotations = reference.lagrange_basis(d.degree, d.points)
+        self._weights = reference.quadrature_weights(2 * d.degree)
         self._mine = slice(0, d.n_owned_cells)
 
     def gather(self, **values: NDArray[np.float64]) -> State:
@@ -76,8 +77,7 @@ class Readout:
         s, R_0 = reference["s"][:, self._order], reference["R_0"][:, self._order]
         first = np.concatenate([[0], np.cumsum(p.discretization.elements)])
         return tuple(
-            self._history(rod, slice(a, b), s[a:b], R_0[a:b], stacked)
-            for rod, (a, b) in enumerate(zip(first[:-1], first[1:], strict=True))
+            self._history(rod, slice(a, b), s[a:b], R_0[a:b], stacked) for rod, (a, b) in enumerate(pairwise(first))
         )
 
     def _history(

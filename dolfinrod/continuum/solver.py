@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-import numpy as np
 from mpi4py import MPI
+
+import numpy as np
 
 from dolfinrod.continuum.kinematics import PlanarRods, SpatialRods
 from dolfinrod.continuum.newton import Newton
@@ -23,6 +24,7 @@ from dolfinrod.scene.kinematics import detect, obstacle
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from dolfinrod.continuum.kinematics import Kinematics
     from dolfinrod.result import StepLog
     from dolfinrod.scene import Scene, Spatial
 
@@ -65,7 +67,7 @@ def solve(
         raise SceneError(f"degree must be 1, 2, 3, 4 or 5, got {degree!r}")
     chosen = choose(scene, kinematics)
     started = time.perf_counter()
-    rods = PlanarRods() if isinstance(chosen, Planar) else SpatialRods()
+    rods: Kinematics = PlanarRods() if isinstance(chosen, Planar) else SpatialRods()
     with borrowed(comm, rods, degree, element_counts(scene, elements)) as (discretization, is_new):
         problem = Problem(scene, discretization, Placement.of(scene, chosen))
         newton, readout = Newton(problem), Readout(problem)

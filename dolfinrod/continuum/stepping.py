@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Path", "StepFailed", "targets", "walk"]
 
-# Successive halvings of a step after which it cannot be taken.
+# Halvings of the way from one target to the next after which a step is too small to be taken.
 MOST_CUTS = 12
 # A prescribed turn of more than this in one step [rad] would send the interpolated quaternion through zero.
 LARGEST_PRESCRIBED_TURN = np.pi / 2
@@ -64,13 +64,13 @@ def walk(newton: Newton, readout: Readout, path: Path, progress: Callable[[StepL
     """Go from the last state in `path` to the end, adding every accepted state.
 
     Raises:
-        StepFailed: A step could not be taken after `MOST_CUTS` halvings.
+        StepFailed: No equilibrium was found even at the smallest step.
     """
     problem = newton.problem
     scene = problem.scene
     t, step = path.t[-1], np.inf
     for target in targets(scene, t):
-        cuts = 0
+        cuts, smallest = 0, (target - t) / 2**MOST_CUTS
         while t < target:
             trial = min(step, target - t)
             while problem.constraints.largest_turn(t, t + trial) > LARGEST_PRESCRIBED_TURN * (1 + 1e-12):
@@ -88,9 +88,9 @@ def walk(newton: Newton, readout: Readout, path: Path, progress: Callable[[StepL
             else:
                 cuts += 1
                 readout.restore(path.states[-1])
-                if cuts > MOST_CUTS:
-                    raise StepFailed(t=t, step=trial, reason=outcome.reason)
                 step = trial / 2
+                if step < smallest:
+                    raise StepFailed(t=t, step=trial, reason=outcome.reason)
 
 
 def _accept(path: Path, t: float, outcome: Outcome, cuts: int, readout: Readout) -> None:

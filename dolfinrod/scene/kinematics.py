@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, Load, PointMoment
+from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
 from dolfinrod.scene.quantity import VectorLike, assign, vector
 from dolfinrod.scene.shape import unit
 from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS, Prescribed, Support
@@ -15,11 +15,13 @@ from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS, Prescribed, Suppor
 if TYPE_CHECKING:
     from dolfinrod.scene.rod import Rod
     from dolfinrod.scene.scene import Scene
+    from dolfinrod.scene.section import Section
 
 __all__ = ["Kinematics", "Planar", "Spatial", "detect", "obstacle"]
 
 # An angle out of the plane that is only round-off of the input [rad].
 TOLERANCE = 1e-10
+DEAD = PointForce | LineForce | Gravity
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,8 @@ Kinematics = Planar | Spatial
 def detect(scene: Scene) -> Planar | Spatial:
     """The least kinematics that holds the whole scene.
 
-    The normal of a plane must be a principal axis of every section; so d3 and then d2 of the first rod are tried.
+    The normal of a plane must be a principal axis of every section; so d3 and then d2 of the first rod are tried, and
+    where its section is the same in all directions, whatever plane its axis spans with a load or a prescribed motion.
 
     Args:
         scene: Any scene.
@@ -63,7 +66,7 @@ def detect(scene: Scene) -> Planar | Spatial:
     """
     origin = tuple(scene.rods[0].centerline(0.0))
     frame = scene.rods[0].frames(0.0)
-    for normal in (frame[:, 2], frame[:, 1]):
+    for normal in (frame[:, 2], frame[:, 1], *_spanned(scene, frame[:, 0])):
         plane = Planar(normal, origin)
         if obstacle(scene, plane) is None:
             return plane
@@ -98,13 +101,32 @@ def _rod_fits(rod: Rod, N: np.ndarray, origin: np.ndarray) -> bool:
     s = np.array([*np.linspace(0.0, rod.length, 9), *rod.breakpoints])
     along = np.einsum("i,nij->nj", N, rod.frames(s))
     axis = 2 if abs(along[0, 2]) > abs(along[0, 1]) else 1
-    others = [0, 3 - axis]
-    level = np.abs(along[:, others]).max() <= TOLERANCE
-    # Nor does the frame turn out of the plane and back between the samples.
-    steady = rod.pretwist == 0.0 and np.abs(rod.curvature(s)[:, others]).max() * rod.length <= 1e-6
+    across = [0] if _isotropic(rod.section) else [0, 3 - axis]
+    # Frames between the samples: a curvature off the normal that turns them by less than this is none.
+    off = rod.curvature(s) - np.einsum("ni,ni->n", rod.curvature(s), along)[:, None] * along
+    bent = np.abs(off).max() * rod.length <= 1e-6
     offset = abs(float((rod.centerline(0.0) - origin) @ N))
     reach = rod.length + float(np.linalg.norm(rod.centerline(0.0) - origin))
-    return bool(level and steady and offset <= TOLERANCE * reach)
+    turned = np.abs(along[:, across]).max() > TOLERANCE
+    return bool(rod.pretwist == 0.0 and bent and not turned and offset <= TOLERANCE * reach)
+
+
+def _isotropic(section: Section) -> bool:
+    """Every axis in the section is a principal one."""
+    return section.EI[0] == section.EI[1] and section.GA[0] == section.GA[1]
+
+
+def _spanned(scene: Scene, d1: np.ndarray) -> list[np.ndarray]:
+    """Normals of the planes that the axis of the first rod spans with a force or motion, and moments themselves."""
+    if not _isotropic(scene.rods[0].section):
+        return []
+    prescribed = [s for s in scene.supports if isinstance(s, Prescribed)]
+    moments = [np.asarray(load.moment) for load in scene.loads if isinstance(load, PointMoment)]
+    turns = [np.asarray(s.rotation) for s in prescribed if s.rotation is not None]
+    forces = [load.g if isinstance(load, Gravity) else load.force for load in scene.loads if isinstance(load, DEAD)]
+    moves = [[u or 0.0 for u in s.displacement] for s in prescribed if s.displacement is not None]
+    normals = [*(np.cross(d1, v) for v in [*forces, *moves]), *moments, *turns]
+    return [v / np.linalg.norm(v) for v in normals if np.linalg.norm(v) > 0.0]
 
 
 def _load_fits(scene: Scene, load: Load, N: np.ndarray) -> bool:

@@ -24,10 +24,15 @@ class PointTerm(Protocol):
 
     name: str
 
-    def residual(self, x: NDArray[np.float64]) -> tuple[NDArray[np.int32], NDArray[np.float64]]: ...
+    def residual(self, x: NDArray[np.float64]) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+        """Rows, and what the term puts there, one row a load."""
+        ...
+
     def tangent(
         self, x: NDArray[np.float64]
-    ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]] | None: ...
+    ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]] | None:
+        """Rows, columns and a dense block for each load; None where it is zero."""
+        ...
 
 
 @dataclass
@@ -49,7 +54,7 @@ class DeadForces:
 
     def tangent(self, x: NDArray[np.float64]) -> None:
         """A dead force has none."""
-        return None
+        return
 
 
 @dataclass
@@ -97,7 +102,9 @@ class DeadMoments:
         """Rows and −(∂δθ/∂δp)ᵀ M."""
         return self.q, -np.einsum("nij,ni->nj", self._spin(x[self.q]), self.values)
 
-    def tangent(self, x: NDArray[np.float64]) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]] | None:
+    def tangent(
+        self, x: NDArray[np.float64]
+    ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]] | None:
         """The spin is linear in p: column j is the residual with the j-th unit quaternion; none in a plane."""
         n, n_q = self.q.shape
         if n_q == 1:

@@ -1,0 +1,68 @@
+"""The reference interval [0, 1]: nodes, bases and quadrature rules, from Basix."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import basix
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = [
+    "discontinuous_basis",
+    "lagrange_basis",
+    "lagrange_nodes",
+    "node_rule",
+    "quadrature_points",
+    "quadrature_weights",
+]
+
+CELL = basix.CellType.interval
+
+
+def node_rule(degree: int) -> dict[str, Any]:
+    """Metadata of the Gauss-Lobatto rule on the nodes of P_k, written out.
+
+    FFCx 0.5 tells rules apart by three digits of a hash, which are the same for the five-point Gauss-Lobatto and the
+    four-point Gauss rule; the points listed from the far end have another.
+    """
+    points, weights = basix.make_quadrature(basix.QuadratureType.gll, CELL, 2 * degree - 1)
+    return {
+        "quadrature_rule": "custom",
+        "quadrature_degree": 2 * degree - 1,
+        "quadrature_points": [[float(x)] for x in points[::-1, 0]],
+        "quadrature_weights": [float(w) for w in weights[::-1]],
+    }
+
+
+def lagrange_nodes(degree: int) -> NDArray[np.float64]:
+    """Position of the P_k nodes on [0, 1] in DOLFINx's order: both ends, then the interior."""
+    element = basix.create_element(basix.ElementFamily.P, CELL, degree, basix.LagrangeVariant.gll_warped)
+    return np.asarray(element.points[:, 0])
+
+
+def discontinuous_basis(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values of the discontinuous P_k basis at `points` of [0, 1], shape (points, k + 1)."""
+    variant = basix.LagrangeVariant.gll_warped if degree > 0 else basix.LagrangeVariant.unset
+    element = basix.create_element(basix.ElementFamily.P, CELL, degree, variant, True)
+    return np.asarray(element.tabulate(0, points[:, None])[0, :, :, 0])
+
+
+def quadrature_points(degree: int) -> NDArray[np.float64]:
+    """Gauss points on [0, 1] of the rule used for forms and coefficients of `degree`."""
+    points, _ = basix.make_quadrature(CELL, degree)
+    return np.asarray(points[:, 0])
+
+
+def quadrature_weights(degree: int) -> NDArray[np.float64]:
+    """Weights of that rule; they sum to 1."""
+    _, weights = basix.make_quadrature(CELL, degree)
+    return np.asarray(weights)
+
+
+def lagrange_basis(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values of the P_k basis at `points` of [0, 1], shape (points, k + 1)."""
+    element = basix.create_element(basix.ElementFamily.P, CELL, degree, basix.LagrangeVariant.gll_warped)
+    return np.asarray(element.tabulate(0, points[:, None])[0, :, :, 0])

@@ -1,0 +1,252 @@
+"""The command `dolfinrod`: exit codes, files and words, the same on any number of ranks."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+from dataclasses import dataclass, replace
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+import dolfinrod as dr
+from dolfinrod import cli
+from dolfinrod.progress import ProgressLine
+from dolfinrod.scene import toml
+from tests.conftest import world
+
+CANTILEVER = """
+[section.strip]
+EA = "1000 N"
+GJ = 1.0
+EI = "1 N*m**2"
+rigid = ["shear", "extension"]
+
+[[rods]]
+straight = { length = "1 m" }
+section = "strip"
+
+[[supports]]
+clamp = { at = "start" }
+
+[[loads]]
+point_force = { at = "end", force = [0, "-1 N", 0] }
+
+[solve]
+elements = 4
+"""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a command left: its exit code and what the one speaking rank wrote."""
+
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def scene_file(shared_path):
+    """A cantilever under a tip force as a file that every rank reads."""
+    return text_file(shared_path / "scene.toml", CANTILEVER)
+
+
+@pytest.fixture
+def dolfinrod(capsys):
+    """Runs the command on every rank; the others say nothing, and wait for the files of the first."""
+
+    def command(*arguments: object) -> Outcome:
+        try:
+            code = cli.main([str(argument) for argument in arguments])
+        except SystemExit as stop:
+            code = stop.code
+        said = capsys.readouterr()
+        outcome = Outcome(code, said.out, said.err)
+        comm = world()
+        if comm is not None and comm.size > 1:
+            assert comm.rank == 0 or (said.out, said.err) == ("", "")
+            outcome = comm.bcast(outcome, root=0)
+        return outcome
+
+    return command
+
+
+def text_file(path, text):
+    """Write a file once and let every rank find it."""
+    comm = world()
+    if comm is None or comm.rank == 0:
+        path.write_text(text, encoding="utf-8")
+    if comm is not None:
+        comm.barrier()
+    return path
+
+
+def test_record_on_disk_is_the_result(dolfinrod, scene_file, shared_path):
+    done = dolfinrod("run", scene_file, "--degree", 2, "--out", shared_path / "out")
+    assert (done.code, done.err) == (0, "")
+    scene, options = toml.load(shared_path / "out" / "scene.toml")
+    assert scene == toml.load(scene_file)[0]
+    assert options == {"elements": 4, "degree": 2}
+    result = dr.solve(scene, **options)
+    record = json.loads((shared_path / "out" / "result.json").read_text(encoding="utf-8"))
+    assert record["converged"]
+    assert record["tip"] == pytest.approx(result.tip, abs=1e-14)
+    assert record["log"][-1]["t"] == 1.0
+    assert record["statistics"]["newton_iterations"] == result.statistics.newton_iterations
+    assert record["formulation"]["kinematics"] == "planar"
+    assert record["versions"]["numpy"] == np.__version__
+
+
+def test_tables_hold_every_node_at_every_stored_time(dolfinrod, scene_file, shared_path):
+    dolfinrod("run", scene_file, "--out", shared_path / "out")
+    scene, options = toml.load(scene_file)
+    rod = dr.solve(scene, **options).rods[0]
+    table = np.genfromtxt(shared_path / "out" / "rod-0.csv", delimiter=",", names=True, deletechars="")
+    n_t, n_s = rod.r.shape[:2]
+    assert table.shape == (n_t * n_s,)
+    columns = {"s_[m]": np.tile(rod.s, n_t), "y_[m]": rod.r[..., 1].ravel(), "d2x": rod.frames[..., 0, 1].ravel()}
+    columns |= {"kappa3_[1/m]": rod.kappa[..., 2].ravel(), "n1_[N]": rod.n[..., 0].ravel()}
+    for name, values in columns.items():
+        np.testing.assert_allclose(table[name], values, atol=1e-12)
+
+
+def test_both_models_are_written_side_by_side_and_agree(dolfinrod, scene_file, shared_path):
+    done = dolfinrod("run", scene_file, "--model", "both", "--elements", 40, "--out", shared_path)
+    assert done.code == 0
+    tips = [
+        json.loads((shared_path / model / "result.json").read_text(encoding="utf-8"))["tip"]
+        for model in ("continuum", "discrete")
+    ]
+    np.testing.assert_allclose(*tips, atol=1e-3)
+    assert "continuum: converged" in done.out
+    assert "discrete: converged" in done.out
+
+
+def test_what_converged_is_written_when_the_end_is_not_reached(dolfinrod, scene_file, shared_path, monkeypatch):
+    import dolfinrod.continuum as continuum
+
+    solve = continuum.solve
+
+    def fails(scene, **options):
+        result = replace(solve(scene, **options), converged=False)
+        raise dr.NotConverged(result=result, t=0.5, step=0.1, reason="line search failed", advice="Try more steps")
+
+    monkeypatch.setattr(continuum, "solve", fails)
+    done = dolfinrod("run", scene_file, "--out", shared_path / "out")
+    assert done.code == 1
+    assert "line search failed. Try more steps" in done.err
+    record = json.loads((shared_path / "out" / "result.json").read_text(encoding="utf-8"))
+    assert not record["converged"]
+    assert record["failure"] == {"t": 0.5, "step": 0.1, "reason": "line search failed", "advice": "Try more steps"}
+    assert (shared_path / "out" / "rod-0.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        ('EI = "1 N*m**2"', 'EI = "-1 N*m**2"', "EI must be positive, got -1.0 N m²"),
+        ('EI = "1 N*m**2"', 'EI = "1 N"', "EI"),
+        ('at = "end"', "at = 2.0", "loads[0]"),
+        ("[solve]", "[solves]", "solves"),
+        ("elements = 4", "element = 4", "solve.element is unknown; known are elements, degree, kinematics"),
+        ("elements = 4", "elements = 0", "elements"),
+        ("elements = 4", 'kinematics = "flat"', "solve.kinematics must be planar or spatial, got 'flat'"),
+        ("[[rods]]", "[[rods]", "TOML"),
+    ],
+)
+def test_bad_scene_is_refused_in_one_line_and_nothing_is_written(dolfinrod, shared_path, old, new, complaint):
+    file = text_file(shared_path / "bad.toml", CANTILEVER.replace(old, new))
+    done = dolfinrod("run", file, "--out", shared_path / "out")
+    assert (done.code, done.out) == (2, "")
+    assert done.err.startswith("dolfinrod: ")
+    assert done.err.count("\n") == 1
+    assert complaint in done.err
+    assert not (shared_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["--degree", "9"], "degree must be"),
+        (["--degree", "two"], "--degree"),
+        (["--elements", "4.5"], "--elements: must be a whole number or one a rod, such as 16 or 16,24, got 4.5"),
+        (["--elements", "4,4"], "elements"),
+        (["--kinematics", "flat"], "--kinematics"),
+        (["--model", "discrete", "--degree", "2"], "--degree belongs to the continuum model"),
+        (["--out", "/dev/null/out"], "--out /dev/null/out cannot be written"),
+    ],
+)
+def test_bad_option_is_refused_in_one_line(dolfinrod, scene_file, arguments, complaint):
+    done = dolfinrod("run", scene_file, *arguments)
+    assert (done.code, done.out) == (2, "")
+    assert done.err.count("\n") == 1
+    assert complaint in done.err
+
+
+def test_missing_file_and_folder_are_refused(dolfinrod, shared_path):
+    absent = dolfinrod("run", shared_path / "absent.toml")
+    assert (absent.code, absent.err.count("\n")) == (2, 1)
+    assert "absent.toml cannot be read: No such file or directory" in absent.err
+    assert dolfinrod("info", shared_path).code == 2
+
+
+def test_info_names_versions_and_what_the_scene_holds(dolfinrod, scene_file):
+    done = dolfinrod("info", scene_file)
+    assert done.code == 0
+    assert f"numpy {np.__version__}" in done.out
+    for words in (
+        "PETSc 3.",
+        "rods[0]: ",
+        "length 1 m",
+        "Section(EA=",
+        "supports[0]: Clamp",
+        "loads[0]: PointForce",
+    ):
+        assert words in done.out
+    assert "kinematics: planar, normal (0, 0, 1)" in done.out
+
+
+@pytest.mark.parametrize("flags", [[], ["--quick"]])
+def test_verify_hands_over_to_the_report(dolfinrod, monkeypatch, flags):
+    asked = []
+    report = ModuleType("verification.__main__")
+    report.main = lambda arguments: asked.append(arguments) or 0
+    monkeypatch.setitem(sys.modules, "verification", ModuleType("verification"))
+    monkeypatch.setitem(sys.modules, "verification.__main__", report)
+    assert dolfinrod("verify", *flags).code == 0
+    assert asked == [flags]
+
+
+class Terminal(io.StringIO):
+    """A stream that says it is a terminal."""
+
+    def isatty(self):
+        return True
+
+
+def test_progress_tells_step_load_iterations_and_time_left(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    seconds = iter([0.0, 30.0, 90.0])
+    terminal = Terminal()
+    line = ProgressLine(terminal, name="continuum", clock=lambda: next(seconds))
+    line(dr.StepLog(t=0.5, iterations=6, cuts=0, residual=1e-12, energy=1.0), 2.0)
+    line(dr.StepLog(t=1.0, iterations=5, cuts=1, residual=1e-12, energy=2.0), 2.0)
+    line.clear()
+    _, begun, first, second, last = terminal.getvalue().split("\r\033[K")
+    assert begun == "continuum: setting up"
+    assert first == "continuum: step 1, t = 0.5 of 2 (25%), 6 iterations, about 1:30 min left"
+    assert second == "continuum: step 2, t = 1 of 2 (50%), 11 iterations, about 1:30 min left"
+    assert last == ""
+
+
+def test_progress_never_wraps_and_is_quiet_in_a_pipe(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "20")
+    step = dr.StepLog(t=0.5, iterations=6, cuts=0, residual=1e-12, energy=1.0)
+    terminal, pipe = Terminal(), io.StringIO()
+    for stream in (terminal, pipe):
+        ProgressLine(stream, name="continuum")(step, 1.0)
+    assert max(len(text) for text in terminal.getvalue().split("\r\033[K")) == 19
+    assert pipe.getvalue() == ""
