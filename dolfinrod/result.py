@@ -38,13 +38,15 @@ class RodHistory:
     m: NDArray[np.float64]
 
     def at(self, s: float) -> NDArray[np.float64]:
-        """Centreline point nearest in arc length to `s` at every stored time.
+        """Centreline point at arc length `s` at every stored time.
+
+        Cubic between neighbouring nodes, whose slopes r′ = R (e₁ + γ) the section frames and strains give.
 
         Args:
             s: Arc length in [0, length] [m].
 
         Returns:
-            Positions of the node closest to `s`, shape (n_t, 3) [m].
+            Positions, shape (n_t, 3) [m].
 
         Raises:
             ValueError: `s` lies off the rod.
@@ -52,7 +54,13 @@ class RodHistory:
         length = self.s[-1]
         if not 0.0 <= s <= length:
             raise ValueError(f"s must lie on the rod, between 0 and {length} m, got {s} m")
-        return self.r[:, int(np.argmin(np.abs(self.s - s)))]
+        i = min(int(np.searchsorted(self.s, s, side="right")) - 1, len(self.s) - 2)
+        h = self.s[i + 1] - self.s[i]
+        x = (s - self.s[i]) / h
+        strain = self.gamma[:, i : i + 2] + np.array([1.0, 0.0, 0.0])
+        slope = h * np.einsum("tnij,tnj->tni", self.frames[:, i : i + 2], strain)
+        ends = (1 + 2 * x) * (1 - x) ** 2 * self.r[:, i] + x**2 * (3 - 2 * x) * self.r[:, i + 1]
+        return ends + x * (1 - x) ** 2 * slope[:, 0] - x**2 * (1 - x) * slope[:, 1]
 
 
 @dataclass(frozen=True)

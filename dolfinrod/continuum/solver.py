@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from dolfinrod.result import StepLog
     from dolfinrod.scene import Scene, Spatial
 
+    Progress = Callable[[StepLog, float], None]
+
 __all__ = ["solve"]
 
 DEGREES = range(1, 6)
@@ -40,7 +42,7 @@ def solve(
     degree: int = 3,
     kinematics: Planar | Spatial | None = None,
     comm: MPI.Comm | None = None,
-    progress: Callable[[StepLog, float], None] | None = None,
+    progress: Progress | None = None,
     start: Result | None = None,
 ) -> Result:
     """Equilibrium of geometrically exact rods (Simo-Reissner, Kirchhoff in the limit).
@@ -66,10 +68,28 @@ def solve(
     if degree not in DEGREES:
         raise SceneError(f"degree must be 1, 2, 3, 4 or 5, got {degree!r}")
     chosen = choose(scene, kinematics)
+    counts = element_counts(scene, elements)
+    result, failure = _path(scene, chosen, comm, degree, counts, progress, start)
+    if failure is not None:
+        advice = _advice(scene)
+        raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice)
+    return result
+
+
+def _path(
+    scene: Scene,
+    kinematics: Planar | Spatial,
+    comm: MPI.Comm,
+    degree: int,
+    counts: tuple[int, ...],
+    progress: Progress | None,
+    start: Result | None,
+) -> tuple[Result, StepFailed | None]:
+    """All states that could be reached, and what stopped the stepping, if anything did."""
     started = time.perf_counter()
-    rods: Kinematics = PlanarRods() if isinstance(chosen, Planar) else SpatialRods()
-    with borrowed(comm, rods, degree, element_counts(scene, elements)) as (discretization, is_new):
-        problem = Problem(scene, discretization, Placement.of(scene, chosen))
+    rods: Kinematics = PlanarRods() if isinstance(kinematics, Planar) else SpatialRods()
+    with borrowed(comm, rods, degree, counts) as (discretization, is_new):
+        problem = Problem(scene, discretization, Placement.of(scene, kinematics))
         newton, readout = Newton(problem), Readout(problem)
         path = _begin(scene, readout, start)
         compiling = discretization.seconds_compile if is_new else 0.0
@@ -84,16 +104,10 @@ def solve(
             seconds_setup=ready - started - compiling,
             seconds_solve=time.perf_counter() - ready,
         )
-        result = _result(problem, readout, path, statistics, converged=failure is None)
-    if failure is not None:
-        advice = _advice(scene)
-        raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice)
-    return result
+        return _result(problem, readout, path, statistics, converged=failure is None), failure
 
 
-def _walk(
-    newton: Newton, readout: Readout, path: Path, progress: Callable[[StepLog, float], None] | None
-) -> StepFailed | None:
+def _walk(newton: Newton, readout: Readout, path: Path, progress: Progress | None) -> StepFailed | None:
     """Step to the end; what stopped it, or None."""
     try:
         walk(newton, readout, path, progress)

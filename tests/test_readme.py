@@ -1,0 +1,58 @@
+"""What the README shows is what happens."""
+
+import contextlib
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dolfinrod as dr
+from dolfinrod.scene import toml
+
+README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+NUMBER = r"-?\d+\.\d*"
+
+
+def block(language: str) -> str:
+    """The first code block of a language."""
+    found = re.search(rf"```{language}\n(.*?)```", README, re.DOTALL)
+    assert found is not None
+    return found.group(1)
+
+
+def test_python_example_prints_what_is_shown():
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(block("python"), "README.md", "exec"), {})
+    shown = block("text")
+    # Words and iteration counts to the letter, lengths in mm to a nanometre.
+    assert re.sub(NUMBER, "#", printed.getvalue()).split() == re.sub(NUMBER, "#", shown).split()
+    numbers = [np.array(re.findall(NUMBER, text), dtype=float) for text in (printed.getvalue(), shown)]
+    assert numbers[0] == pytest.approx(numbers[1], abs=1e-6)
+
+
+def test_python_example_is_short():
+    assert len([line for line in block("python").splitlines() if line.strip()]) <= 10
+
+
+def test_scene_file_poses_the_same_scene():
+    scene, options = toml.loads(block("toml"))
+    fibre = dr.Rod.straight(length=0.04, section=dr.Section.ramie())
+    assert scene == dr.Scene(
+        rods=[fibre], supports=[dr.Clamp(at="start")], loads=[dr.PointForce((0, -1e-6, 0), at="end")]
+    )
+    assert options == {"elements": 16, "degree": 3}
+
+
+def test_every_name_of_the_package_exists():
+    names = set(re.findall(r"`dr\.(\w+)", README))
+    assert names
+    assert all(hasattr(dr, name) for name in names)
+
+
+def test_pictures_are_there():
+    pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)
+    assert pictures
+    assert all((Path(__file__).parents[1] / picture).stat().st_size > 0 for picture in pictures)
