@@ -111,57 +111,58 @@ def test_files_are_read_as_their_text(tmp_path: Path) -> None:
         load(file)
 
 
+EVERY_KIND = """
+[section.strip.rectangle]
+width = "2 mm"
+height = "0.5 mm"
+E = "2 GPa"
+G = 1e9
+density = 1000
+torsion = "polar"
+
+[section.bare]
+GJ = 1
+EI = ["1 N*m**2", 2]
+rigid = ["shear", "extension"]
+rhoA = "4.84 dtex"
+
+[section.fibre.ramie]
+
+[[rods]]
+arc = { radius = "1 m", angle = "90 deg", towards = [0, 0, 1] }
+section = "strip"
+
+[[rods]]
+curved = { length = 2, curvature = ["0.5 1/m", 0, 0], start = [0, 0, "1 cm"], pretwist = "1 turn/m" }
+section = "bare"
+
+[[rods]]
+through = { points = [[0, 0, 0], ["1 m", 0, 0], [2, 1, 0]], d2 = [0, 0, 1] }
+section = "fibre"
+
+[[supports]]
+guide = { at = "end", free = ["x", "rz"], rod = 0 }
+
+[[supports]]
+prescribed = { at = "50 cm", displacement = ["1 mm", "free", 0], rotation = [0, 0, "1 turn"], rod = 1 }
+
+[[loads]]
+gravity = { g = [0, 0, "-9.81 m/s**2"], history = "steady" }
+
+[[loads]]
+follower_moment = { moment = [0, 0, "2 mN*m"], at = "end" }
+
+[[loads]]
+line_force = { force = ["1 mN/mm", 0, 0], between = ["10 cm", "20 cm"], history = [[0, 1], [0.5, 2]] }
+
+[motion.static]
+steps = 10
+t_end = 2
+"""
+
+
 def test_every_kind_reads_as_in_python() -> None:
-    scene, options = loads(
-        """
-        [section.strip.rectangle]
-        width = "2 mm"
-        height = "0.5 mm"
-        E = "2 GPa"
-        G = 1e9
-        density = 1000
-        torsion = "polar"
-
-        [section.bare]
-        GJ = 1
-        EI = ["1 N*m**2", 2]
-        rigid = ["shear", "extension"]
-        rhoA = "4.84 dtex"
-
-        [section.fibre.ramie]
-
-        [[rods]]
-        arc = { radius = "1 m", angle = "90 deg", towards = [0, 0, 1] }
-        section = "strip"
-
-        [[rods]]
-        curved = { length = 2, curvature = ["0.5 1/m", 0, 0], start = [0, 0, "1 cm"], pretwist = "1 turn/m" }
-        section = "bare"
-
-        [[rods]]
-        through = { points = [[0, 0, 0], ["1 m", 0, 0], [2, 1, 0]], d2 = [0, 0, 1] }
-        section = "fibre"
-
-        [[supports]]
-        guide = { at = "end", free = ["x", "rz"], rod = 0 }
-
-        [[supports]]
-        prescribed = { at = "50 cm", displacement = ["1 mm", "free", 0], rotation = [0, 0, "1 turn"], rod = 1 }
-
-        [[loads]]
-        gravity = { g = [0, 0, "-9.81 m/s**2"], history = "steady" }
-
-        [[loads]]
-        follower_moment = { moment = [0, 0, "2 mN*m"], at = "end" }
-
-        [[loads]]
-        line_force = { force = ["1 mN/mm", 0, 0], between = ["10 cm", "20 cm"], history = [[0, 1], [0.5, 2]] }
-
-        [motion.static]
-        steps = 10
-        t_end = 2
-    """
-    )
+    scene, options = loads(EVERY_KIND)
     strip = dr.Section.rectangle(width=2e-3, height=5e-4, E=2e9, G=1e9, density=1e3, torsion="polar")
     bare = dr.Section(GJ=1.0, EI=(1.0, 2.0), rigid={"shear", "extension"}, rhoA=4.84e-7)
     assert scene.rods == (

@@ -1,0 +1,156 @@
+"""Finite rotations of many sections at once: rotation vectors, their exponentials and tangent maps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["cross", "exp", "log", "skew", "tangents"]
+
+# Below this angle [rad] the coefficients are summed as series: the closed forms cancel there.
+_SMALL = 0.5
+_IDENTITY = np.eye(3)
+# η = Σ |B_2k| φ^(2k−2)/(2k)! with the Bernoulli numbers B_2k; its slope over φ term by term.
+_ETA = (1 / 12, 1 / 720, 1 / 30240, 1 / 1209600, 1 / 47900160, 691 / 1307674368000, 1 / 74724249600)
+_SLOPE = (*(2 * k * c for k, c in enumerate(_ETA[1:], 1)), 0.0)
+
+
+def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Cross products a × b of rows; several times quicker than numpy.cross on short arrays.
+
+    Args:
+        a: Vectors, shape (n, 3).
+        b: Vectors, shape (n, 3).
+
+    Returns:
+        Products, shape (n, 3).
+    """
+    product = np.empty_like(a)
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        product[:, k] = a[:, i] * b[:, j]
+        product[:, k] -= a[:, j] * b[:, i]
+    return product
+
+
+def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Matrix of the cross product, [a]× b = a × b.
+
+    Args:
+        a: Vectors, shape (..., 3).
+
+    Returns:
+        Antisymmetric matrices, shape (..., 3, 3).
+    """
+    matrix = np.zeros((*a.shape, 3))
+    matrix[..., 2, 1] = a[..., 0]
+    matrix[..., 0, 2] = a[..., 1]
+    matrix[..., 1, 0] = a[..., 2]
+    matrix[..., 1, 2] = -a[..., 0]
+    matrix[..., 2, 0] = -a[..., 1]
+    matrix[..., 0, 1] = -a[..., 2]
+    return matrix
+
+
+def exp(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation about an axis by an angle of any size (Rodrigues).
+
+    exp θ = I + (sin φ/φ) [θ]× + (1 − cos φ)/φ² [θ]×², φ = |θ|.
+
+    Args:
+        theta: Rotation vectors, shape (..., 3) [rad].
+
+    Returns:
+        Rotation matrices, shape (..., 3, 3).
+    """
+    half = 0.5 * np.sqrt(np.einsum("...i,...i->...", theta, theta))
+    sinc_half = np.sinc(half / np.pi)
+    matrix = skew(theta)
+    square = matrix @ matrix
+    matrix *= (sinc_half * np.cos(half))[..., None, None]
+    matrix += (0.5 * sinc_half**2)[..., None, None] * square
+    matrix += _IDENTITY
+    return matrix
+
+
+def log(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation vector of a rotation by less than half a turn.
+
+    θ = (φ/sin φ) a with a the axial vector of the antisymmetric part, φ = atan2(|a|, (tr − 1)/2).
+
+    Args:
+        rotation: Rotation matrices, shape (..., 3, 3).
+
+    Returns:
+        Rotation vectors with |θ| < π, shape (..., 3) [rad].
+    """
+    axial = np.empty(rotation.shape[:-1])
+    axial[..., 0] = rotation[..., 2, 1] - rotation[..., 1, 2]
+    axial[..., 1] = rotation[..., 0, 2] - rotation[..., 2, 0]
+    axial[..., 2] = rotation[..., 1, 0] - rotation[..., 0, 1]
+    axial *= 0.5
+    sine = np.sqrt(np.einsum("...i,...i->...", axial, axial))
+    cosine = 0.5 * (np.einsum("...ii->...", rotation) - 1.0)
+    # φ/sin φ → 1 as φ → 0: the tiny number only keeps 0/0 out.
+    axial *= ((np.arctan2(sine, cosine) + 1e-300) / (sine + 1e-300))[..., None]
+    return axial
+
+
+def _coefficients(theta: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Coefficient η(φ) = (1 − (φ/2) cot(φ/2))/φ² of the tangent map, and η′(φ)/φ.
+
+    Args:
+        theta: Rotation vectors, shape (..., 3) [rad].
+
+    Returns:
+        Both coefficients, shape (...).
+    """
+    square = np.einsum("...i,...i->...", theta, theta)
+    eta, slope = np.full_like(square, _ETA[-1]), np.full_like(square, _SLOPE[-1])
+    for e, d in zip(_ETA[-2::-1], _SLOPE[-2::-1], strict=True):
+        eta = e + square * eta
+        slope = d + square * slope
+    large = square > _SMALL**2
+    if large.any():
+        s = np.where(large, square, 1.0)
+        angle = np.sqrt(s)
+        sine = np.sin(0.5 * angle)
+        eta = np.where(large, (1.0 - 0.5 * angle * np.cos(0.5 * angle) / sine) / s, eta)
+        closed = (angle * (angle + np.sin(angle)) - 8.0 * sine**2) / (4.0 * s**2 * sine**2)
+        slope = np.where(large, closed, slope)
+    return eta, slope
+
+
+def tangents(
+    theta: NDArray[np.float64], moment: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Change of a rotation vector with the spin, and of the moment conjugate to the spin with the rotation vector.
+
+    δθ = Θ(θ) φ where δ(exp θ) = [φ]× exp θ; the moment conjugate to φ is Θᵀμ. With (η, η′) of `_coefficients`
+    Θ = I − ½ [θ]× + η [θ]×², [θ]×² = θ θᵀ − φ² I,
+    ∂(Θᵀμ)/∂θ = −½ [μ]× + η ((θ·μ) I + θ μᵀ − 2 μ θᵀ) + (η′/φ) (θ×(θ×μ)) θᵀ.
+
+    Args:
+        theta: Rotation vectors, |θ| < 2π, shape (..., 3) [rad].
+        moment: Moments μ conjugate to θ, shape (..., 3).
+
+    Returns:
+        Θ and ∂(Θᵀμ)/∂θ, shapes (..., 3, 3).
+    """
+    eta, slope = _coefficients(theta)
+    along = np.einsum("...i,...i->...", theta, moment)[..., None]
+    square = np.einsum("...i,...i->...", theta, theta)[..., None]
+    eta, slope = eta[..., None], slope[..., None]
+    scaled = eta * theta
+    tangent = scaled[..., :, None] * theta[..., None, :]
+    tangent -= skew(0.5 * theta)
+    tangent += (1.0 - eta * square)[..., None] * _IDENTITY
+    swing = slope * (along * theta - square * moment) - 2.0 * eta * moment
+    stiffness = swing[..., :, None] * theta[..., None, :]
+    stiffness += scaled[..., :, None] * moment[..., None, :]
+    stiffness -= skew(0.5 * moment)
+    stiffness += (eta * along)[..., None] * _IDENTITY
+    return tangent, stiffness
