@@ -147,7 +147,7 @@ class SpatialRods:
     def turn(self, q: Array, theta: Array) -> Array:
         """exp(½ θ) p, of unit norm to round-off."""
         turned = quaternion.multiply(quaternion.exponential(theta), q)
-        return turned / np.linalg.norm(turned, axis=1, keepdims=True)
+        return turned / np.sqrt(np.sum(turned * turned, axis=1, keepdims=True))
 
     def compose(self, spins: list[Array]) -> Array:
         """Rotation unknown of rotation vectors applied one after the other, in space, shape (4,)."""

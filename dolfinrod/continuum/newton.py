@@ -29,6 +29,8 @@ __all__ = ["Newton", "Outcome"]
 LARGEST_TURN = 2.0
 # Increments relative to the unknowns (and to 1 rad, L, EI/L², EI/L) at which an iteration has converged.
 TOLERANCE = 1e-9
+# Where Newton converges quadratically, an increment this small is known to come next without computing it.
+NEGLIGIBLE = 1e-13
 # Iterations after which a load step is given up; a rod that winds up five turns takes about twenty.
 MOST_ITERATIONS = 50
 
@@ -74,7 +76,7 @@ class Newton:
         self._linear = [d.owned_nodes(f).ravel() for f in ("r", "N", "m")]
         self._m = self._linear[-1]
         self._A, self._X, self._F = d.matrix, d.x.vector.duplicate(), d.x.vector.duplicate()
-        self._size = np.inf
+        self._size = self._next = np.inf
         self._lu: BandedLU | None = None
         self.snes = self._make_snes(d.comm)
 
@@ -112,7 +114,7 @@ class Newton:
     def solve(self) -> Outcome:
         """Equilibrium at the problem's pseudo-time, from the problem's state; on failure the state is lost."""
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
-        self._size = np.inf
+        self._size = self._next = np.inf
         self.snes.solve(None, self._X)
         self._take(self._X)
         iterations, reason = self.snes.getIterationNumber(), self.snes.getConvergedReason()
@@ -159,7 +161,9 @@ class Newton:
             y[self._m] *= LARGEST_TURN / turn
         y[self._q] = q - kin.turn(q, θ)
         sizes = self._largest([a[dofs] for a in (y, x) for dofs in self._linear])
-        self._size = max(turn, *(sizes[:3] / np.maximum(sizes[3:], 1.0)))
+        before, self._size = self._size, max(turn, *(sizes[:3] / np.maximum(sizes[3:], 1.0)))
+        # Quadratic convergence: the ratio of an increment to the square of the one before, and never less than 1.
+        self._next = self._size**2 * max(1.0, self._size / before**2) if np.isfinite(before) else np.inf
         return True
 
     def _largest(self, values: list[NDArray[np.float64]]) -> NDArray[np.float64]:
@@ -172,6 +176,6 @@ class Newton:
         reasons = PETSc.SNES.ConvergedReason
         if not np.isfinite(norms[2]) or np.isnan(self._size):
             return reasons.DIVERGED_FNORM_NAN
-        if iteration > 0 and self._size < TOLERANCE:
+        if iteration > 0 and (self._size < TOLERANCE or self._next < NEGLIGIBLE):
             return reasons.CONVERGED_SNORM_RELATIVE
         return reasons.DIVERGED_MAX_IT if iteration >= MOST_ITERATIONS else reasons.ITERATING

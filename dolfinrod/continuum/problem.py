@@ -50,8 +50,8 @@ class Problem:
         self._cut_rods()
         self._set_values()
         self.constraints = Constraints(scene, self.kinematics, placement, self.locate)
-        self._excluded = np.zeros(len(self.x), dtype=np.int8)
-        self._excluded[self.constraints.dofs] = 1
+        self._excluded = np.zeros(len(self.x), dtype=bool)
+        self._excluded[self.constraints.dofs] = True
         self._lump()
         self._mask = backend.held_dofs(discretization.x, self.constraints.dofs)
         owned = self.constraints.dofs < discretization.n_owned
@@ -179,28 +179,22 @@ class Problem:
         for term in self._acting:
             block = term.tangent(self.x)
             if block is not None:
-                self._add_blocks(A, *block)
-        held = self._held
-        self._add_blocks(A, held[:, None], held[:, None], np.ones((len(held), 1, 1)), excluded=False)
+                _add(A, *self._entries(*block))
+        _add(A, self._held, self._held, np.ones(len(self._held)))
         A.assemble()
 
-    def _add_blocks(
-        self,
-        A: PETSc.Mat,
-        rows: NDArray[np.int32],
-        columns: NDArray[np.int32],
-        values: NDArray[np.float64],
-        *,
-        excluded: bool = True,
-    ) -> None:
-        """Add one dense block for each row of (rows, columns), leaving out held dofs."""
-        n, m = rows.shape[1], columns.shape[1]
-        I = np.repeat(rows, m, axis=1).ravel()
-        J = np.tile(columns, (1, n)).ravel()
-        V = values.reshape(-1)
-        if excluded:
-            keep = (self._excluded[I] == 0) & (self._excluded[J] == 0)
-            I, J, V = I[keep], J[keep], V[keep]
-        if len(I):
-            pointers = np.arange(len(I) + 1, dtype=PETSc.IntType)
-            A.setValuesLocalIJV(pointers, J, V, addv=PETSc.InsertMode.ADD_VALUES, rowmap=I.astype(PETSc.IntType))
+    def _entries(
+        self, rows: NDArray[np.int32], columns: NDArray[np.int32], blocks: NDArray[np.float64]
+    ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]:
+        """Entries of dense blocks, one for each row of (rows, columns), leaving out held dofs."""
+        I = np.repeat(rows, columns.shape[1], axis=1).ravel()
+        J = np.tile(columns, (1, rows.shape[1])).ravel()
+        keep = ~(self._excluded[I] | self._excluded[J])
+        return I[keep], J[keep], blocks.ravel()[keep]
+
+
+def _add(A: PETSc.Mat, rows: NDArray[np.int32], columns: NDArray[np.int32], values: NDArray[np.float64]) -> None:
+    """Add single entries, given in local numbers."""
+    if len(rows):
+        pointers = np.arange(len(rows) + 1, dtype=PETSc.IntType)
+        A.setValuesLocalIJV(pointers, columns, values, addv=PETSc.InsertMode.ADD_VALUES, rowmap=rows)

@@ -82,7 +82,7 @@ def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float
 
 def exponential(theta: NDArray[np.float64]) -> NDArray[np.float64]:
     """Quaternion (cos ½|θ|, sin ½|θ| θ/|θ|) of a rotation vector of any length, shapes (..., 3) → (..., 4)."""
-    half = 0.5 * np.linalg.norm(theta, axis=-1, keepdims=True)
+    half = 0.5 * np.sqrt(np.sum(theta * theta, axis=-1, keepdims=True))
     return np.concatenate([np.cos(half), 0.5 * np.sinc(half / np.pi) * theta], axis=-1)
 
 
