@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from mpi4py import MPI
+from petsc4py import PETSc
 
 import dolfinx.cpp as cpp
 import dolfinx.fem.petsc
@@ -17,8 +18,6 @@ from dolfinx import fem, mesh
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
-
-    from petsc4py import PETSc
 
     from numpy.typing import NDArray
 
@@ -217,3 +216,29 @@ class BoundForm:
     def add_vector(self, b: NDArray[np.float64]) -> None:
         """Add the linear form to the local array `b` (owned, then ghosts)."""
         cpp.fem.assemble_vector(b, self._form, self._constants, cpp.fem.pack_coefficients(self._form))
+
+
+def add_entries(
+    A: PETSc.Mat, rows: NDArray[np.int32], columns: NDArray[np.int32], values: NDArray[np.float64] | float
+) -> None:
+    """Add single entries, given in local numbers, to a matrix."""
+    if len(rows):
+        pointers = np.arange(len(rows) + 1, dtype=np.int32)
+        filled = np.broadcast_to(np.asarray(values, dtype=float), rows.shape)
+        A.setValuesLocalIJV(pointers, columns, filled, addv=PETSc.InsertMode.ADD_VALUES, rowmap=rows)
+
+
+def without_zeros(A: PETSc.Mat) -> PETSc.Mat:
+    """A matrix that has room for the entries of `A` which are not zero, and passes over zeros added elsewhere."""
+    pointers, columns, values = A.getValuesCSR()
+    kept = values != 0.0
+    pointers = np.concatenate([[0], np.cumsum(kept)])[pointers].astype(np.int32)
+    sparse = PETSc.Mat().createAIJ(A.getSizes(), csr=(pointers, columns[kept], values[kept]), comm=A.getComm())
+    sparse.setLGMap(*A.getLGMap())
+    sparse.setOption(PETSc.Mat.Option.IGNORE_ZERO_ENTRIES, True)
+    return sparse
+
+
+def order_by_neighbours(A: PETSc.Mat) -> NDArray[np.int32]:
+    """Unknowns of a matrix on one rank in the order of reverse Cuthill and McKee."""
+    return np.asarray(A.getOrdering(PETSc.Mat.OrderingType.RCM)[0].getIndices())

@@ -16,19 +16,20 @@ __all__ = ["Band", "BandedLU"]
 
 
 class Band:
-    """Where the entries of a sparse matrix lie once reverse Cuthill-McKee has lined its unknowns up.
+    """Where the entries of a sparse matrix lie once its unknowns are lined up.
 
     Args:
         A: Matrix on one rank, with its final pattern.
+        order: Its unknowns in an order of small bandwidth.
 
     Attributes:
         width: Entries on either side of the diagonal.
     """
 
-    def __init__(self, A: PETSc.Mat) -> None:
+    def __init__(self, A: PETSc.Mat, order: NDArray[np.int32]) -> None:
         pointers, columns, _ = A.getValuesCSR()
         n = A.getSize()[0]
-        self.order: NDArray[np.int32] = A.getOrdering("rcm")[0].getIndices()
+        self.order = order
         place = np.empty(n, dtype=np.int64)
         place[self.order] = np.arange(n)
         row, column = place[np.repeat(np.arange(n), np.diff(pointers))], place[columns]

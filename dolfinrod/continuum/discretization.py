@@ -14,6 +14,7 @@ from dolfinrod.continuum.forms import forms_of
 
 if TYPE_CHECKING:
     from mpi4py import MPI
+    from petsc4py import PETSc
 
     from dolfinx import fem
     from numpy.typing import NDArray
@@ -74,6 +75,27 @@ class Discretization:
         index_map = self.space.dofmap.index_map
         self.n_owned, self.n_dofs = int(index_map.size_local), int(index_map.size_global)
         self.dofs = {f: backend.cell_dofs(self.space, i) for i, f in enumerate(self.kinematics.fields)}
+        spanned = self._spanned_matrix()
+        self.matrix = backend.without_zeros(spanned)
+        self.band = Band(self.matrix, backend.order_by_neighbours(spanned)) if comm.size == 1 else None
+
+    def _spanned_matrix(self) -> PETSc.Mat:
+        """A tangent that is zero only where every tangent is, with all entries that the elements span.
+
+        It is assembled at a random state with random coefficients; to it come the diagonal, for held dofs, and the
+        part by which a force at a node turns with its section.
+        """
+        random = np.random.default_rng(seed=0)
+        for function in (self.x, self.r_0, self.C_n, self.C_m):
+            function.x.array[:] = random.uniform(1.0, 2.0, len(function.x.array))
+        spanned = self.tangent.matrix()
+        self.tangent.add_matrix(spanned)
+        every = np.arange(len(self.x.x.array), dtype=np.int32)
+        r, q = (self.dofs[f].reshape(-1, self.dofs[f].shape[2]) for f in ("r", "q"))
+        r, q = np.repeat(r, q.shape[1], axis=1).ravel(), np.tile(q, (1, r.shape[1])).ravel()
+        backend.add_entries(spanned, np.concatenate([every, r]), np.concatenate([every, q]), 1.0)
+        spanned.assemble()
+        return spanned
 
     def _make_spaces(self) -> None:
         elements = self.forms.elements
@@ -89,11 +111,6 @@ class Discretization:
         self.residual = backend.BoundForm(self.forms.residual, [self.space], values)
         self.tangent = backend.BoundForm(self.forms.tangent, [self.space, self.space], values)
         self.line_load = backend.BoundForm(self.forms.line_load, [self.space], values)
-        self.matrix = self.tangent.matrix()
-        # PETSc forgets preallocated entries that nothing was ever put into.
-        self.tangent.add_matrix(self.matrix)
-        self.matrix.assemble()
-        self.band = Band(self.matrix) if self.comm.size == 1 else None
 
     def owned_nodes(self, field: str) -> NDArray[np.int32]:
         """Dofs of the distinct nodes of a field that this rank owns, shape (nodes, components)."""

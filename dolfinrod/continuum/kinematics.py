@@ -71,11 +71,15 @@ class Kinematics(Protocol):
         ...
 
     def increment(self, q: Array, dq: Array) -> Array:
-        """Spins that changes of the rotation unknown stand for."""
+        """The part of a change of q that is a turn."""
         ...
 
-    def turn(self, q: Array, theta: Array) -> Array:
-        """Rotations turned by spins."""
+    def angles(self, increment: Array) -> Array:
+        """Angle of each such turn [rad], (n,)."""
+        ...
+
+    def turn(self, q: Array, increment: Array) -> Array:
+        """q after such a turn."""
         ...
 
     def compose(self, spins: list[Array]) -> Array:
@@ -141,13 +145,18 @@ class SpatialRods:
         return np.tile([1.0, 0.0, 0.0, 0.0], (n, 1))
 
     def increment(self, q: Array, dq: Array) -> Array:
-        """Rotation vectors in space that a change δp of unit quaternions stands for, 2 Im(δp p̄), (n, 3)."""
-        return quaternion.spin(q, dq)
+        """δp − (p·δp) p, tangent to the unit sphere; the spin is 2 Im(δp p̄), (n, 4)."""
+        return dq - np.einsum("ni,ni->n", q, dq)[:, None] * q
 
-    def turn(self, q: Array, theta: Array) -> Array:
-        """exp(½ θ) p, of unit norm to round-off."""
-        turned = quaternion.multiply(quaternion.exponential(theta), q)
-        return turned / np.sqrt(np.sum(turned * turned, axis=1, keepdims=True))
+    def angles(self, increment: Array) -> Array:
+        """2 |δp|, (n,)."""
+        return 2.0 * np.sqrt(np.einsum("ni,ni->n", increment, increment))
+
+    def turn(self, q: Array, increment: Array) -> Array:
+        """Along the great circle, cos |δp| p + sin |δp| δp/|δp|, which is exp(½ θ) p; unit to round-off, (n, 4)."""
+        half = 0.5 * self.angles(increment)
+        turned = np.cos(half)[:, None] * q + np.sinc(half / np.pi)[:, None] * increment
+        return turned / np.sqrt(np.einsum("ni,ni->n", turned, turned))[:, None]
 
     def compose(self, spins: list[Array]) -> Array:
         """Rotation unknown of rotation vectors applied one after the other, in space, shape (4,)."""
@@ -210,9 +219,13 @@ class PlanarRods:
         """The change of angle itself, (n, 1)."""
         return dq
 
-    def turn(self, q: Array, theta: Array) -> Array:
-        """φ + θ."""
-        return q + theta
+    def angles(self, increment: Array) -> Array:
+        """|δφ|, (n,)."""
+        return np.abs(increment[:, 0])
+
+    def turn(self, q: Array, increment: Array) -> Array:
+        """φ + δφ."""
+        return q + increment
 
     def compose(self, spins: list[Array]) -> Array:
         """Sum of the angles, shape (1,)."""

@@ -154,19 +154,19 @@ class Newton:
         kin = self.problem.kinematics
         x, y = X.array_r, Y.array
         q = x[self._q]
-        θ = kin.increment(q, -y[self._q])
-        turn = np.sqrt(self._largest([np.einsum("ni,ni->n", θ, θ)])[0])
+        increment = kin.increment(q, -y[self._q])
+        largest = self._largest(kin.angles(increment), *(a[dofs] for a in (y, x) for dofs in self._linear))
+        turn = largest[0]
         if turn > LARGEST_TURN:
-            θ *= LARGEST_TURN / turn
+            increment *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
-        y[self._q] = q - kin.turn(q, θ)
-        sizes = self._largest([a[dofs] for a in (y, x) for dofs in self._linear])
-        before, self._size = self._size, max(turn, *(sizes[:3] / np.maximum(sizes[3:], 1.0)))
+        y[self._q] = q - kin.turn(q, increment)
+        before, self._size = self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0)))
         # Quadratic convergence: the ratio of an increment to the square of the one before, and never less than 1.
         self._next = self._size**2 * max(1.0, self._size / before**2) if np.isfinite(before) else np.inf
         return True
 
-    def _largest(self, values: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    def _largest(self, *values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Largest magnitude in each array, over all ranks; a rank may have none."""
         largest = np.array([np.abs(v).max(initial=0.0) for v in values])
         self.problem.discretization.comm.Allreduce(MPI.IN_PLACE, largest, op=MPI.MAX)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from petsc4py import PETSc
-
 import numpy as np
 
 from dolfinrod.continuum import backend
@@ -16,6 +14,8 @@ from dolfinrod.continuum.nodes import element_ends
 from dolfinrod.scene.history import factor
 
 if TYPE_CHECKING:
+    from petsc4py import PETSc
+
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.placement import Placement
@@ -179,8 +179,8 @@ class Problem:
         for term in self._acting:
             block = term.tangent(self.x)
             if block is not None:
-                _add(A, *self._entries(*block))
-        _add(A, self._held, self._held, np.ones(len(self._held)))
+                backend.add_entries(A, *self._entries(*block))
+        backend.add_entries(A, self._held, self._held, 1.0)
         A.assemble()
 
     def _entries(
@@ -191,10 +191,3 @@ class Problem:
         J = np.tile(columns, (1, rows.shape[1])).ravel()
         keep = ~(self._excluded[I] | self._excluded[J])
         return I[keep], J[keep], blocks.ravel()[keep]
-
-
-def _add(A: PETSc.Mat, rows: NDArray[np.int32], columns: NDArray[np.int32], values: NDArray[np.float64]) -> None:
-    """Add single entries, given in local numbers."""
-    if len(rows):
-        pointers = np.arange(len(rows) + 1, dtype=PETSc.IntType)
-        A.setValuesLocalIJV(pointers, columns, values, addv=PETSc.InsertMode.ADD_VALUES, rowmap=rows)

@@ -25,7 +25,6 @@ __all__ = [
     "rotate",
     "rotate_gradient",
     "rotation",
-    "spin",
 ]
 
 
@@ -65,12 +64,6 @@ def left(p: NDArray[np.float64]) -> NDArray[np.float64]:
 def right(p: NDArray[np.float64]) -> NDArray[np.float64]:
     """Im(p̄ δp) as a matrix acting on δp: half the spin in the rotated frame, shape (n, 3, 4)."""
     return p[:, [[1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]]] * [[-1, 1, 1, -1], [-1, -1, 1, 1], [-1, 1, -1, 1]]
-
-
-def spin(p: NDArray[np.float64], δp: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Spatial spin δθ = 2 Im(δp p̄) of a change of unit quaternions, shapes (n, 4) → (n, 3)."""
-    w, v, δw, δv = p[:, :1], p[:, 1:], δp[:, :1], δp[:, 1:]
-    return 2.0 * (w * δv - δw * v + cross(v, δv))
 
 
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
