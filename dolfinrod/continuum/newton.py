@@ -34,12 +34,13 @@ NEGLIGIBLE = 1e-13
 # Iterations after which a load step is given up; a rod that winds up five turns takes about twenty.
 MOST_ITERATIONS = 50
 
+SINGULAR = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
+# PETSC_ERR_LIB, an error in a library that PETSc calls.
+LIBRARY_ERROR = 76
 REASONS = {
     PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "the residual is not a number",
     PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: f"Newton's method did not settle in {MOST_ITERATIONS} iterations",
-    PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE: (
-        "the tangent is singular: something is free to move, or a load is critical"
-    ),
+    SINGULAR: ("the tangent is singular: something is free to move, or a load is critical"),
     PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_DOMAIN: "the residual is not a number",
 }
 
@@ -75,9 +76,13 @@ class Newton:
         self._q = d.owned_nodes("q")
         self._linear = [d.owned_nodes(f).ravel() for f in ("r", "N", "m")]
         self._m = self._linear[-1]
-        self._A, self._X, self._F = d.matrix, d.x.vector.duplicate(), d.x.vector.duplicate()
         self._size = self._next = np.inf
         self._lu: BandedLU | None = None
+        self._open()
+
+    def _open(self) -> None:
+        d = self.problem.discretization
+        self._A, self._X, self._F = d.matrix, d.x.vector.duplicate(), d.x.vector.duplicate()
         self.snes = self._make_snes(d.comm)
 
     def _make_snes(self, comm: MPI.Comm) -> PETSc.SNES:
@@ -106,6 +111,10 @@ class Newton:
         if band is None:
             pc.setType(PETSc.PC.Type.LU)
             pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+            pc.setOperators(self._A)
+            pc.setFactorSetUpSolverType()
+            # It puts off the zero pivots of multipliers; the fifth of extra room it takes by itself is not enough.
+            pc.getFactorMatrix().setMumpsIcntl(14, 200)
         else:
             pc.setType(PETSc.PC.Type.PYTHON)
             self._lu = BandedLU(band)
@@ -115,14 +124,29 @@ class Newton:
         """Equilibrium at the problem's pseudo-time, from the problem's state; on failure the state is lost."""
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
-        self.snes.solve(None, self._X)
-        self._take(self._X)
-        iterations, reason = self.snes.getIterationNumber(), self.snes.getConvergedReason()
+        reason = self._run()
+        iterations = self.snes.getIterationNumber()
         self.factorizations += iterations
-        if self._lu is not None and self._lu.singular:
-            reason = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
+        if reason == SINGULAR:
+            self.close()
+            self._open()
+            return Outcome(False, iterations, np.nan, REASONS[SINGULAR])
+        self._take(self._X)
         words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
         return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words)
+
+    def _run(self) -> int:
+        """The SNES reason for which it stopped."""
+        try:
+            self.snes.solve(None, self._X)
+        except PETSc.Error as error:
+            # MUMPS refuses to solve with what it could not factorise, on all ranks at once.
+            if error.ierr != LIBRARY_ERROR:
+                raise
+            return SINGULAR
+        if self._lu is not None and self._lu.singular:
+            return SINGULAR
+        return int(self.snes.getConvergedReason())
 
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together: the garbage collector would do it on each at its own time."""
