@@ -53,14 +53,17 @@ def pytest_report_teststatus(report: pytest.TestReport) -> tuple[str, str, str] 
     return report.outcome, "", ""
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture(autouse=True, scope="module")
 def collective_teardown() -> Iterator[None]:
     """Free PETSc objects together: their destructors are collective, Python's garbage collector is not."""
-    yield
     comm = world()
-    if comm is not None:
-        gc.collect()
-        comm.barrier()
+    if comm is None or comm.size == 1:
+        yield
+        return
+    gc.disable()
+    yield
+    gc.collect()
+    comm.barrier()
 
 
 @pytest.fixture

@@ -9,13 +9,14 @@ from mpi4py import MPI
 
 import numpy as np
 
-from dolfinrod.continuum.kinematics import PlanarRods, SpatialRods
 from dolfinrod.continuum.newton import Newton
 from dolfinrod.continuum.nodes import element_counts
 from dolfinrod.continuum.placement import Placement
+from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
+from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stepping import Path, StepFailed, walk
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import Planar, SceneError

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 import dolfinrod as dr
 from dolfinrod.continuum import quaternion
 from dolfinrod.continuum.discretization import Discretization
-from dolfinrod.continuum.kinematics import PlanarRods, SpatialRods
 from dolfinrod.continuum.placement import Placement
+from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.problem import Problem
+from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.terms.point import DeadForces, DeadMoments, FollowerForces, FollowerMoments
 from tests.scenes import GENERAL, KIRCHHOFF, SKEW, largest
 

@@ -1,0 +1,101 @@
+"""Rods in space: a centreline in ℝ³ and a unit quaternion at every node."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import ufl
+
+from dolfinrod.continuum import quaternion
+from dolfinrod.continuum.backend import discontinuous, lagrange
+from dolfinrod.continuum.kinematics import Configuration
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from ufl.core.expr import Expr
+
+    Array = NDArray[np.float64]
+
+__all__ = ["SpatialRods"]
+
+
+class SpatialRods:
+    """Rods in space: r ∈ ℝ³, a quaternion p, unit at the nodes by a multiplier λ, force N and moment m.
+
+    The condition ½ λ (p·p − 1) stands on the nodes of p alone (Gauss-Lobatto rule), so it is met exactly there,
+    no weight has to be chosen and the tangent stays symmetric.
+    """
+
+    name = "spatial"
+    dim = 3
+    n_spin = 3
+    fields: tuple[str, ...] = ("r", "q", "multiplier", "N", "m")
+
+    def elements(self, degree: int) -> list[ufl.FiniteElementBase]:
+        """P_k for r, p and λ; discontinuous P_{k−1} for N and m."""
+        nodal, inner = (3, 4, 1), (3, 3)
+        return [*(lagrange(degree, d) for d in nodal), *(discontinuous(degree - 1, d) for d in inner)]
+
+    def configuration(self, x: tuple[Expr, ...]) -> Configuration:
+        """Strain-carrying quantities of (r, p, λ, N, m)."""
+        r, p, λ, N, m = x
+        return Configuration(
+            r_s=r.dx(0),
+            R=quaternion.rotation(p),
+            κ=quaternion.curvature(p, p.dx(0)),
+            N=N,
+            m=m,
+            gauge=λ[0] * (ufl.inner(p, p) - 1) / 2,
+        )
+
+    def at_rest(self, n: int) -> Array:
+        """n quaternions of no turn."""
+        return np.tile([1.0, 0.0, 0.0, 0.0], (n, 1))
+
+    def increment(self, q: Array, dq: Array) -> Array:
+        """δp − (p·δp) p, tangent to the unit sphere; the spin is 2 Im(δp p̄), (n, 4)."""
+        return dq - np.einsum("ni,ni->n", q, dq)[:, None] * q
+
+    def angles(self, increment: Array) -> Array:
+        """2 |δp|, (n,)."""
+        return 2.0 * np.sqrt(np.einsum("ni,ni->n", increment, increment))
+
+    def turn(self, q: Array, increment: Array) -> Array:
+        """Along the great circle, cos |δp| p + sin |δp| δp/|δp|, which is exp(½ θ) p; unit to round-off, (n, 4)."""
+        half = 0.5 * self.angles(increment)
+        turned = np.cos(half)[:, None] * q + np.sinc(half / np.pi)[:, None] * increment
+        return turned / np.sqrt(np.einsum("ni,ni->n", turned, turned))[:, None]
+
+    def compose(self, spins: list[Array]) -> Array:
+        """Rotation unknown of rotation vectors applied one after the other, in space, shape (4,)."""
+        q = np.array([1.0, 0.0, 0.0, 0.0])
+        for theta in spins:
+            q = quaternion.multiply(quaternion.exponential(theta), q)
+        return q
+
+    def rotate(self, q: Array, v: Array) -> Array:
+        """R(p) v, (n, 3)."""
+        return quaternion.rotate(q, v)
+
+    def rotate_back(self, q: Array, v: Array) -> Array:
+        """R(p)ᵀ v for quaternions of any norm, (n, 3)."""
+        p = q / np.linalg.norm(q, axis=1, keepdims=True)
+        return quaternion.rotate(p * [1.0, -1.0, -1.0, -1.0], v)
+
+    def rotate_gradient(self, q: Array, v: Array) -> Array:
+        """∂(R v)/∂p on the unit sphere, (n, 3, 4)."""
+        return quaternion.rotate_gradient(q, v)
+
+    def spin(self, q: Array) -> Array:
+        """Spatial spin a change of p stands for, δθ = 2 Im(δp p̄), linear in p, (n, 3, 4)."""
+        return 2.0 * quaternion.left(q)
+
+    def body_spin(self, q: Array) -> Array:
+        """Spin in the turned frame, 2 Im(p̄ δp), linear in p, (n, 3, 4)."""
+        return 2.0 * quaternion.right(q)
+
+    def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
+        """Section frames R(p) R₀ in space, shapes (t, s, 4), (3, 3), (s, 3, 3) → (t, s, 3, 3)."""
+        columns = [quaternion.rotate(q, frames[None, :, :, j] + 0.0 * q[..., :1]) for j in range(3)]
+        return np.stack(columns, axis=-1)
