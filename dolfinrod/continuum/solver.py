@@ -46,25 +46,7 @@ def solve(
     progress: Progress | None = None,
     start: Result | None = None,
 ) -> Result:
-    """Equilibrium of geometrically exact rods (Simo-Reissner, Kirchhoff in the limit).
-
-    Args:
-        scene: What is posed.
-        elements: Elements of each rod, one number for all or one a rod.
-        degree: Degree of centreline and rotation, 1 to 5.
-        kinematics: `Planar()` or `Spatial()`; by default planar where the whole scene lies in one plane.
-        comm: MPI communicator; all ranks of it call together and get the same complete result.
-        progress: Called with each accepted step and the final pseudo-time.
-        start: An earlier result on the same elements: its last state is the first guess; of the same scene, stepping
-            goes on from its last pseudo-time.
-
-    Returns:
-        The states at the accepted load steps.
-
-    Raises:
-        SceneError: The scene or an option cannot be solved as given.
-        NotConverged: A load step could not be taken; carries what had converged.
-    """
+    """Equilibrium of geometrically exact rods (Simo-Reissner, Kirchhoff in the limit); see `dolfinrod.solve`."""
     comm = MPI.COMM_WORLD if comm is None else comm
     if degree not in DEGREES:
         raise SceneError(f"degree must be 1, 2, 3, 4 or 5, got {degree!r}")

@@ -28,7 +28,7 @@ sections = pytest.mark.parametrize(
 )
 
 
-def one_step(result, most: int) -> None:
+def assert_one_step(result, most: int) -> None:
     assert result.converged
     assert result.statistics.load_steps == 1
     assert result.statistics.newton_iterations <= most
@@ -37,19 +37,19 @@ def one_step(result, most: int) -> None:
 @sections
 @every_form
 def test_elastica_at_ten(section: Section, frame, axial):
-    one_step(discrete.solve(tip_loaded(section, 10.0), frame=frame, axial=axial), 7)
+    assert_one_step(discrete.solve(tip_loaded(section, 10.0), frame=frame, axial=axial), 7)
 
 
 @pytest.mark.parametrize("elements", [5, 20, 320])
 @pytest.mark.parametrize("force", [100.0, 500.0, 5000.0])
 def test_large_tip_loads_on_any_mesh(force, elements):
-    one_step(discrete.solve(tip_loaded(KIRCHHOFF, force), elements=elements), 9)
+    assert_one_step(discrete.solve(tip_loaded(KIRCHHOFF, force), elements=elements), 9)
 
 
 def test_thousands_of_elements_do_not_drown_in_round_off():
     """12EI/l³ reaches 8e11 EI/L³; the clamp still answers with the load and no more."""
     result = discrete.solve(tip_loaded(round_section(200.0), 10.0, FLAT), elements=4000)
-    one_step(result, 7)
+    assert_one_step(result, 7)
     assert result.rods[0].n[-1, 0] == pytest.approx([0.0, 10.0, 0.0], abs=1e-9)
 
 
@@ -62,7 +62,7 @@ def test_end_moments_close_the_circle_exactly(turns, most, pose):
     """
     for section in (round_section(200.0), KIRCHHOFF):
         result = discrete.solve(rolled_up(section, turns, pose))
-        one_step(result, most)
+        assert_one_step(result, most)
         assert pose.back(result.tip) == pytest.approx(np.zeros(3), abs=1e-10)
         assert result.rods[0].m[-1] == pytest.approx(np.tile([0, 0, 2 * np.pi * turns], (81, 1)), abs=1e-8)
 
@@ -70,19 +70,19 @@ def test_end_moments_close_the_circle_exactly(turns, most, pose):
 def test_follower_force_reaches_the_branch_of_the_reference():
     """Case C1, inextensible, Jacobi functions: P L²/EI = 10."""
     result = discrete.solve(followed(KIRCHHOFF, 10.0, FLAT), elements=160)
-    one_step(result, 10)
+    assert_one_step(result, 10)
     assert result.tip[:2] == pytest.approx([-0.09212318118936638, 0.5469632645937142], abs=5e-5)
 
 
 @every_form
 def test_bend_at_600(frame, axial):
-    one_step(discrete.solve(bend(600.0), frame=frame, axial=axial), 8)
+    assert_one_step(discrete.solve(bend(600.0), frame=frame, axial=axial), 8)
 
 
 def test_bent_and_twisted_at_once():
     moment = SKEW.turned((0.3 * np.pi, 0.0, np.pi))
     loads = PointForce(SKEW.turned((5.0, 0.0, 3.5)), "end"), PointMoment(moment, "end")
-    one_step(discrete.solve(cantilever(SKEW.straight(round_section(200.0)), *loads), elements=40), 10)
+    assert_one_step(discrete.solve(cantilever(SKEW.straight(round_section(200.0)), *loads), elements=40), 10)
 
 
 def test_no_shear_is_stated_and_largest_residual_is_small():
