@@ -21,6 +21,7 @@ from discrete.statics import Path, StepFailed, stride, walk
 from discrete.supports import Supports
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import SceneError
+from dolfinrod.scene.mechanism import advice
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -115,7 +116,7 @@ def _followed(scene: Scene, run: _Run, seconds_setup: float, progress: Progress 
     result = _result(scene, run.mesh, run.path, seconds, converged=failure is None)
     if failure is not None:
         raise NotConverged(
-            result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=_advice(scene)
+            result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice(scene)
         ) from failure
     return result
 
@@ -188,12 +189,4 @@ def _result(
             tuple(notes),
         ),
         state=stored(path.state, cut) if isinstance(path.state, State) else {},
-    )
-
-
-def _advice(scene: Scene) -> str:
-    steps = scene.motion.steps
-    return (
-        f"Try Static(steps={2 * steps if steps else 8}), more elements, or look at `.result` (what converged): "
-        "the load may have passed a critical point there, or something may be free to move"
     )

@@ -104,24 +104,23 @@ def walk(
     """
     step = np.inf
     for target in targets(scene, t, scene.motion.steps or 1):
-        cuts = 0
+        cuts, smallest = 0, (target - t) / 2**MOST_CUTS
         while t < target:
-            step = min(step, target - t)
-            t_next = target if step >= target - t else t + step
+            trial = min(step, target - t)
+            t_next = target if trial >= target - t else t + trial
             outcome = equilibrium.find(path.state, t_next)
             path.iterations += outcome.iterations
             if not outcome.converged:
-                cuts += 1
-                if cuts > MOST_CUTS:
-                    raise StepFailed(t=t, step=step, reason=outcome.reason)
-                step /= 2.0
+                cuts, step = cuts + 1, trial / 2.0
+                if step < smallest:
+                    raise StepFailed(t=t, step=trial, reason=outcome.reason)
                 continue
             path.state, t = outcome.state, t_next
             kept = equilibrium.snapshot(path.state, t)
             path.accept(kept, outcome.iterations, cuts, outcome.residual, equilibrium.mesh.units.moment)
             if progress is not None:
                 progress(path.log[-1], scene.motion.t_end)
-            step, cuts = 2.0 * step, 0
+            step, cuts = (2.0 * step if cuts == 0 else trial), 0
 
 
 def stride(

@@ -21,6 +21,7 @@ from dolfinrod.continuum.stepping import Path, StepFailed, walk
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import Planar, SceneError
 from dolfinrod.scene.kinematics import detect, obstacle
+from dolfinrod.scene.mechanism import advice
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -54,8 +55,8 @@ def solve(
     counts = element_counts(scene, elements)
     result, failure = _path(scene, chosen, comm, degree, counts, progress, start)
     if failure is not None:
-        advice = _advice(scene)
-        raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice)
+        words = advice(scene)
+        raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=words)
     return result
 
 
@@ -154,12 +155,4 @@ def _result(problem: Problem, readout: Readout, path: Path, statistics: Statisti
         statistics=statistics,
         formulation=Formulation("continuum", d.kinematics.name, unknowns, problem.terms),
         state=path.states[-1],
-    )
-
-
-def _advice(scene: Scene) -> str:
-    steps = scene.motion.steps
-    return (
-        f"Try Static(steps={2 * steps if steps else 8}), more elements, or look at `.result` (what converged): "
-        "the load may have passed a critical point there, or something may be free to move"
     )

@@ -1,0 +1,94 @@
+"""What the supports of a scene leave free to move as a rigid body."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS
+
+if TYPE_CHECKING:
+    from dolfinrod.scene.scene import Scene
+
+__all__ = ["advice", "free_motions"]
+
+# A rigid motion that supports resist with less than this fraction of their full grip is free.
+FREE = 1e-9
+
+
+def free_motions(scene: Scene) -> tuple[str, ...]:
+    """Rigid motions of single rods that no support resists, in words.
+
+    A support that holds x at the place r resists the velocity v + ω × r along x; one that holds rx resists ω along x.
+    The motions (v, ω) in the null space of all these are free: first the translations, then the turns left over.
+
+    Args:
+        scene: Any scene.
+
+    Returns:
+        One sentence a motion, such as "rods[0] is free to turn about (1, 0, 0)"; none where all is held. A free
+        motion need not be fatal: loads may hold a rod in equilibrium, as gravity holds a pendulum.
+    """
+    sentences = []
+    for k in range(len(scene.rods)):
+        rows = _resisted(scene, k)
+        if not len(rows):
+            sentences.append(f"rods[{k}] is held nowhere")
+            continue
+        free = _null_space(rows)
+        translations = _null_space(free[:, 3:].T) @ free
+        sentences += [f"rods[{k}] is free to move along {_direction(motion[:3])}" for motion in translations]
+        sentences += [f"rods[{k}] is free to turn about {_direction(axis)}" for axis in _span(free[:, 3:])]
+    return tuple(sentences)
+
+
+def _resisted(scene: Scene, k: int) -> np.ndarray:
+    """Rows (e, r × e) or (0, e) that a rigid motion of rod k must be normal to, shape (rows, 6), lengths in its own."""
+    rod = scene.rods[k]
+    rows = []
+    for support in scene.supports:
+        places = [s for j, s in scene.location(support.at, support.rod) if j == k]
+        for r in (np.asarray(rod.centerline(s) - rod.centerline(0.0)) / rod.length for s in places):
+            held = support.held()
+            moved = [e for e, a in zip(np.eye(3), TRANSLATIONS, strict=True) if a in held]
+            turned = [e for e, a in zip(np.eye(3), ROTATIONS, strict=True) if a in held]
+            rows += [np.concatenate([e, np.cross(r, e)]) for e in moved]
+            rows += [np.concatenate([np.zeros(3), e]) for e in turned]
+    return np.array(rows).reshape(-1, 6)
+
+
+def _null_space(rows: np.ndarray) -> np.ndarray:
+    """Orthonormal rows that all `rows` are normal to."""
+    _, grip, right = np.linalg.svd(rows)
+    return np.asarray(right[int((grip > FREE).sum()) :])
+
+
+def _span(rows: np.ndarray) -> np.ndarray:
+    """Orthonormal rows that span the same."""
+    _, size, right = np.linalg.svd(rows)
+    return np.asarray(right[: int((size > FREE).sum())])
+
+
+def advice(scene: Scene) -> str:
+    """What to try where no equilibrium is found, beginning with what nothing holds.
+
+    Args:
+        scene: The scene that was not solved.
+
+    Returns:
+        Sentences without the last full stop.
+    """
+    free = free_motions(scene)
+    support = f"Nothing holds the rods completely: {'; '.join(free)}. " if free else ""
+    steps = scene.motion.steps
+    return (
+        f"{support}Try Static(steps={2 * steps if steps else 8}), more elements, or look at `.result` (what "
+        "converged): the load may have passed a critical point there"
+    )
+
+
+def _direction(v: np.ndarray) -> str:
+    """A direction to six digits, its largest component positive."""
+    v = v / np.linalg.norm(v) * np.sign(v[np.argmax(np.abs(v))])
+    return "(" + ", ".join(f"{round(c, 6) + 0.0:g}" for c in v) + ")"

@@ -1,0 +1,61 @@
+"""What nothing holds is named: rigid motions that supports leave free, and the failures they lead to."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+import discrete
+import dolfinrod as dr
+from dolfinrod.scene.mechanism import free_motions
+
+SECTION = dr.Section(EA=1e4, GA=1e4, GJ=1.0, EI=1.0)
+ROD = dr.Rod.straight(length=1.0, section=SECTION)
+ARC = dr.Rod.arc(radius=1.0, angle=1.0, section=SECTION)
+
+
+def turn(*axes: str) -> tuple[str, ...]:
+    """Sentences for free turns of the first rod."""
+    return tuple(f"rods[0] is free to turn about {axis}" for axis in axes)
+
+
+TABLE = [
+    ((), ("rods[0] is held nowhere",)),
+    ((dr.Clamp("start"),), ()),
+    ((dr.Pin("start"),), turn("(1, 0, 0)", "(0, 1, 0)", "(0, 0, 1)")),
+    ((dr.Pin("start"), dr.Pin("end")), turn("(1, 0, 0)")),
+    ((dr.Guide("start", free={"rz"}),), turn("(0, 0, 1)")),
+    ((dr.Guide("start", free={"x"}),), ("rods[0] is free to move along (1, 0, 0)",)),
+    ((dr.Pin("start"), dr.Guide("end", free={"x", "ry", "rz"})), ()),
+    ((dr.Prescribed("start", displacement=(0, 0, 0), rotation=(0, 0, 1)),), ()),
+]
+
+
+@pytest.mark.parametrize(("supports", "sentences"), TABLE)
+def test_free_motions_are_named(supports, sentences):
+    assert free_motions(dr.Scene([ROD], supports)) == sentences
+
+
+def test_each_rod_answers_for_itself():
+    scene = dr.Scene([ROD, ARC], [dr.Clamp("start", rod=0), dr.Pin("start", rod=1), dr.Pin("end", rod=1)])
+    chord = np.asarray(ARC.centerline(ARC.length)) / np.linalg.norm(ARC.centerline(ARC.length))
+    assert free_motions(scene) == (f"rods[1] is free to turn about ({chord[0]:.6g}, {chord[1]:.6g}, 0)",)
+
+
+@given(seed=st.integers(0, 1000))
+def test_a_rod_between_pins_turns_about_its_chord_wherever_it_lies(seed):
+    turned = Rotation.random(random_state=seed).as_matrix()
+    rod = dr.Rod.straight(length=2.0, section=SECTION, start=turned[:, 1], direction=turned[:, 0])
+    (sentence,) = free_motions(dr.Scene([rod], [dr.Pin("start"), dr.Pin("end")]))
+    axis = np.array([float(c) for c in sentence.split("(")[1].rstrip(")").split(",")])
+    assert abs(axis @ turned[:, 0]) == pytest.approx(1.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("solve", [dr.solve, discrete.solve], ids=["continuum", "discrete"])
+def test_a_failure_says_what_nothing_holds(solve):
+    scene = dr.Scene([ROD], [], [dr.PointForce((0, 1, 0), "end")])
+    with pytest.raises(dr.NotConverged, match=r"Nothing holds the rods completely: rods\[0\] is held nowhere\. Try"):
+        solve(scene, elements=4)
