@@ -98,9 +98,10 @@ def function(space_: fem.FunctionSpace) -> fem.Function:
     return fem.Function(space_)
 
 
-def sum_to_owners(f: fem.Function) -> None:
-    """Add what other ranks have put on a shared dof to its owner's value."""
+def sum_over_ranks(f: fem.Function) -> None:
+    """Add up what all ranks have put on a shared dof, and give each of them the sum."""
     f.x.scatter_reverse(cpp.la.ScatterMode.add)
+    f.x.scatter_forward()
 
 
 def cell_dofs(space_: fem.FunctionSpace, field: int | None = None) -> NDArray[np.int32]:

@@ -132,11 +132,11 @@ class Discretization:
         function.x.array[backend.cell_dofs(function.function_space)] = at_points
 
     def assembled_residual(self) -> NDArray[np.float64]:
-        """Residual of the forms at the current state, rows owned by this rank, summed over all ranks."""
+        """Residual of the forms at the current state, summed over all ranks, on all local dofs."""
         b = backend.function(self.space)
         self.residual.add_vector(b.x.array)
-        backend.sum_to_owners(b)
-        return b.x.array[: self.n_owned]
+        backend.sum_over_ranks(b)
+        return b.x.array
 
     def line_loads(self, f: NDArray[np.float64]) -> list[NDArray[np.float64]]:
         """Local residual vectors −∫ f·δr ds of dead line loads, one for each field in `f`."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum import reference
+from dolfinrod.continuum.recovery import Sections
 from dolfinrod.result import RodHistory
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ class Readout:
         self._resultants = reference.discontinuous_basis(d.degree - 1, d.points)
         self._rotations = reference.lagrange_basis(d.degree, d.points)
         self._weights = reference.quadrature_weights(2 * d.degree)
+        self._sections = Sections(problem.kinematics, d.degree)
         self._mine = slice(0, d.n_owned_cells)
 
     def gather(self, **values: NDArray[np.float64]) -> State:
@@ -47,8 +49,9 @@ class Readout:
 
     def state(self) -> State:
         """The whole state by field, each (cells, nodes, components), cells lined up, in working units."""
-        x = self.problem.x
-        return self.gather(**{field: x[dofs] for field, dofs in self.problem.discretization.dofs.items()})
+        d, x = self.problem.discretization, self.problem.x
+        nodal = d.assembled_residual()[d.dofs["q"]]
+        return self.gather(nodal=nodal, **{field: x[dofs] for field, dofs in d.dofs.items()})
 
     def restore(self, state: State) -> None:
         """Make a gathered state the current one."""
@@ -71,9 +74,7 @@ class Readout:
         """One history a rod from the gathered states."""
         p = self.problem
         reference = self.gather(s=p.s, R_0=p.R_0)
-        stacked = {f: np.stack([state[f] for state in states]) for f in ("r", "q", "N", "m")}
-        for f in ("N", "m"):
-            stacked[f] = np.einsum("na,tcai->tcni", self._to_nodes, stacked[f])
+        stacked = {f: np.stack([state[f] for state in states]) for f in ("r", "q", "N", "nodal")}
         s, R_0 = reference["s"][:, self._order], reference["R_0"][:, self._order]
         first = np.concatenate([[0], np.cumsum(p.discretization.elements)])
         return tuple(
@@ -85,11 +86,13 @@ class Readout:
     ) -> RodHistory:
         p, place = self.problem, self.problem.placement
         r, q = (_joined(states[f][:, cells][:, :, self._order]) for f in ("r", "q"))
-        N, m = (_averaged(states[f][:, cells]) for f in ("N", "m"))
+        r_e, q_e, N_e, nodal = (states[f][:, cells] for f in ("r", "q", "N", "nodal"))
+        N = _averaged(np.einsum("na,tcai->tcni", self._to_nodes, N_e))
+        m = _averaged(self._sections.moments(r_e, N_e, q_e[:, :, 0], nodal[:, :, 0]))
         frames_0 = _joined(R_0.reshape(1, *R_0.shape[:2], 9))[0].reshape(-1, 3, 3)
         turned = p.kinematics.turned_frames(q, place.spin_axes, frames_0)
         n = np.einsum("tsji,tsj->tsi", turned, N @ place.axes.T) * place.force
-        m = np.einsum("sji,tsj->tsi", frames_0, m @ place.spin_axes.T) * place.moment
+        m = np.einsum("tsji,tsj->tsi", turned, m @ place.spin_axes.T) * place.moment
         section = p.scene.rods[rod].section
         length = place.length
         return RodHistory(

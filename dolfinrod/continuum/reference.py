@@ -14,6 +14,7 @@ __all__ = [
     "discontinuous_basis",
     "lagrange_basis",
     "lagrange_nodes",
+    "lagrange_slopes",
     "node_rule",
     "quadrature_points",
     "quadrature_weights",
@@ -60,6 +61,12 @@ def quadrature_weights(degree: int) -> NDArray[np.float64]:
     """Weights of that rule; they sum to 1."""
     _, weights = basix.make_quadrature(CELL, degree)
     return np.asarray(weights)
+
+
+def lagrange_slopes(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Derivatives of the P_k basis at `points` of [0, 1], shape (points, k + 1)."""
+    element = basix.create_element(basix.ElementFamily.P, CELL, degree, basix.LagrangeVariant.gll_warped)
+    return np.asarray(element.tabulate(1, points[:, None])[1, :, :, 0])
 
 
 def lagrange_basis(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import dolfinrod as dr
-from tests.scenes import GENERAL, SKEW, both_kinematics, cantilever, largest, orders, rolled_up
+from tests.scenes import GENERAL, KIRCHHOFF, SKEW, both_kinematics, cantilever, orders, rolled_up
 
 DENSE = dr.Section(EA=900.0, GA=(400.0, 300.0), GJ=0.7, EI=(1.0, 2.0), rhoA=1.5)
 MOMENT = (0.4, -0.3, 0.6)
@@ -98,16 +98,24 @@ def test_forces_balance(scene, kinematics):
 
 
 @pytest.mark.parametrize(("scene", "kinematics"), SCENES)
-def test_moments_balance_at_the_order_of_the_moment(scene, kinematics):
-    """Forces are exact; moments, one degree below the shape, gain a digit with every halving."""
+def test_moments_balance(scene, kinematics):
+    result = dr.solve(scene, elements=8, degree=3, kinematics=kinematics)
+    rod = result.rods[0]
+    _, moment = load_on(result, rod.r[-1, 0])
+    np.testing.assert_allclose(resultants_at(rod, 0)[1], moment, rtol=0, atol=1e-10 * np.linalg.norm(moment))
+
+
+@both_kinematics
+@pytest.mark.parametrize(("degree", "elements"), [(1, (16, 32, 64)), (2, (8, 16, 32)), (3, (8, 16, 32))])
+def test_the_moment_at_the_clamp_is_as_accurate_as_the_tip(degree, elements, kinematics):
+    """Elastica P L²/EI = 10: M(0) L/EI = 4.450044022462487 (reference A1, elliptic integrals)."""
+    scene = cantilever(SKEW.straight(KIRCHHOFF), dr.PointForce(SKEW.turned((0, 10.0, 0)), "end"))
     errors = []
-    for elements in (8, 16, 32):
-        result = dr.solve(scene, elements=elements, degree=3, kinematics=kinematics)
-        rod = result.rods[0]
-        _, moment = load_on(result, rod.r[-1, 0])
-        errors.append(largest(resultants_at(rod, 0)[1] - moment) / largest(moment))
-    assert errors[-1] <= 1e-4
-    assert orders((8, 16, 32), errors).min() >= 2.7
+    for n in elements:
+        rod = dr.solve(scene, elements=n, degree=degree, kinematics=kinematics).rods[0]
+        errors.append(abs(rod.m[-1, 0, 2] - 4.450044022462487))
+        assert np.abs(rod.m[-1, -1]).max() <= 1e-10
+    assert orders(elements, errors).min() >= 2 * degree - 0.3
 
 
 @both_kinematics
