@@ -3,7 +3,7 @@
     python -m verification [--quick] [--out report]
 
 `case`          a problem, what is read off, and its reference with provenance
-`cases`         elastica, roll-up, 45° bend
+`cases`         elastica, follower force, heavy cantilever, roll-up, 45° bend, parabola
 `references`    the numbers and where they come from; closed forms
 `models`        adapters that solve a scene with either model
 `workprecision` the only clock

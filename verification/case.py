@@ -70,7 +70,7 @@ class Case:
     Args:
         name: Short, unique, fit for a file name.
         title: For people.
-        family: "elastica", "rollup" or "bend45".
+        family: "elastica", "follower", "heavy", "rollup", "bend45" or "parabola".
         scene: The problem in a pose.
         reference: What the quantity should be.
         length: By which errors are divided [m].

@@ -13,7 +13,7 @@ import numpy as np
 
 from dolfinrod.result import NotConverged
 from verification.case import UPRIGHT
-from verification.cases import bend45, elastica, rollup
+from verification.cases import bend45, elastica, follower, heavy, rollup
 from verification.models import Continuum, Discrete
 
 if TYPE_CHECKING:
@@ -61,6 +61,8 @@ def crosschecks(*, quick: bool = False, note: Callable[[str], None] = lambda _: 
     cases = (
         elastica.inextensible(1.0),
         elastica.inextensible(10.0),
+        follower.inextensible(20.0),
+        heavy.inextensible(20.0),
         rollup.rolled(0.5),
         rollup.rolled(2.0),
         bend45.bend(600.0, kirchhoff=True),

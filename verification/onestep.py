@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from dolfinrod.scene import Planar, Spatial
 from verification.case import SKEW
-from verification.cases import bend45, elastica, rollup
+from verification.cases import bend45, elastica, follower, rollup
 from verification.models import Continuum
 from verification.workprecision import measure
 
@@ -63,7 +63,7 @@ def problems() -> tuple[tuple[Case, int, int], ...]:
         (elastica.inextensible(10.0), 8, 8),
         *heavy,
         *turns,
-        (elastica.follower(), 8, 25),
+        *((follower.inextensible(alpha), 8, 25) for alpha in (10.0, 20.0)),
         (bend45.bend(600.0), 8, 10),
     )
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from dolfinrod.result import NotConverged
 from dolfinrod.scene import Planar, Spatial
 from verification.case import UPRIGHT
-from verification.cases import CASES, bend45, elastica, rollup
+from verification.cases import CASES, bend45, elastica, follower, heavy, rollup
 from verification.checks import Check, error_checks, order_checks
 from verification.crosscheck import CrossCheck, crosschecks
 from verification.machine import Machine, this_machine
@@ -30,6 +30,8 @@ __all__ = ["STANDARD", "Report", "Shape", "run"]
 BOTH = (Planar(), Spatial())
 # Elements on which every case is shown; of the continuum model a turn.
 STANDARD = {"continuum": 8, "discrete": 80}
+# Families whose error is drawn over time.
+TIMED = ("elastica", "bend45")
 
 
 @dataclass(frozen=True)
@@ -57,12 +59,12 @@ class Report:
 
     Args:
         machine: On which.
-        quick: Whether few meshes and repetitions were asked for.
+        quick: Whether few meshes, degrees and repetitions were asked for.
         checks: Errors and orders against limits.
         one_step: Whole loads at once.
         speeds: Times against limits.
-        headlines: The cases shown in figures, every degree, many meshes.
-        cases: Every case with degrees 3 and 4 and the discrete model, up to the standard mesh.
+        headlines: One case a family, every degree, many meshes.
+        cases: Every case with degrees 3 and, unless quick, 4 and the discrete model, up to the standard mesh.
         crosschecks: Both models against each other.
         references: Provenance by title of the case.
         shapes: To draw.
@@ -97,7 +99,7 @@ def run(*, quick: bool = False, note: Callable[[str], None] = lambda _: None) ->
     """Solve everything.
 
     Args:
-        quick: Fewer meshes and repetitions; every limit is still checked.
+        quick: Fewer meshes, degrees and repetitions; every limit is still checked.
         note: Told what is being solved.
 
     Returns:
@@ -125,17 +127,25 @@ def _headlines(quick: bool, note: Callable[[str], None]) -> Iterator[Study]:
     meshes = (4, 8, 16) if quick else (2, 4, 8, 16, 32)
     chain = (20, 40, 80) if quick else (10, 20, 40, 80, 160)
     repeats = 2 if quick else 5
-    for case in (elastica.inextensible(10.0), rollup.rolled(0.5), bend45.bend(600.0, kirchhoff=True)):
+    chosen = (
+        elastica.inextensible(10.0),
+        follower.inextensible(10.0),
+        heavy.inextensible(10.0),
+        rollup.rolled(0.5),
+        bend45.bend(600.0, kirchhoff=True),
+    )
+    for case in chosen:
         for model in _applicable(case, range(1, 6), ("chord", "paper")):
             note(f"{case.title}: {model.name}")
-            yield study(case, model, chain if model.family == "discrete" else meshes, repeats=repeats)
+            cells = chain if model.family == "discrete" else meshes
+            yield study(case, model, cells, repeats=repeats if case.family in TIMED else 0)
 
 
 def _all_cases(quick: bool, note: Callable[[str], None]) -> Iterator[Study]:
     """Every case on three meshes; a roll-up has as many elements a turn as another case has in all."""
     for case in CASES:
         note(f"every case: {case.title}")
-        for model in _applicable(case, (3, 4), ("chord",)):
+        for model in _applicable(case, (3,) if quick else (3, 4), ("chord",)):
             coarse = 20 if model.family == "discrete" else 4 * case.turns
             standard = STANDARD[model.family] * (1 if model.family == "discrete" else case.turns)
             yield study(case, model, (coarse, 2 * coarse, 4 * coarse), repeats=1 if quick else 5, timed=(standard,))
@@ -157,9 +167,10 @@ def _shapes(note: Callable[[str], None]) -> Iterator[Shape]:
 
 
 def _shapes_of(case: Case) -> Iterator[Shape]:
-    for model, elements in ((Continuum(5), 16), (Discrete(), 40)):
+    kinematics = Planar() if case.planar else Spatial()
+    for model, elements in ((Continuum(5, kinematics), 16), (Discrete(), 40)):
         try:
-            rod = model.solve(case.scene(UPRIGHT), elements).rods[0]
+            rod = model.solve(case.scene(UPRIGHT), elements * case.turns).rods[0]
         except NotConverged:
             continue
         if model.family == "continuum":

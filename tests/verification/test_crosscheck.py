@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from verification.cases import bend45, elastica
+from verification.cases import bend45, elastica, follower, heavy
 from verification.crosscheck import compare
 
 pytestmark = pytest.mark.serial
 
-CASES = (elastica.inextensible(10.0), bend45.bend(600.0, kirchhoff=True))
+CASES = (
+    elastica.inextensible(10.0),
+    follower.inextensible(20.0),
+    heavy.inextensible(50.0),
+    bend45.bend(600.0, kirchhoff=True),
+)
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)

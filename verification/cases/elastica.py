@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.scene import Clamp, FollowerForce, PointForce, Rod, Scene, Section
+from dolfinrod.scene import Clamp, PointForce, Rod, Scene, Section
 from verification.case import Case
 from verification.references import cantilever, elastica, tabulated
 
@@ -20,7 +20,6 @@ __all__ = [
     "CASES",
     "RIGID",
     "circular",
-    "follower",
     "inextensible",
     "isotropic",
     "loaded",
@@ -139,26 +138,6 @@ def shear_rigid(alpha: float, slenderness: float) -> Case:
         scene=loaded(alpha, Section(EA=EA, GJ=1.0 / 1.3, EI=1.0, rigid={"shear"})),
         reference=cantilever(alpha, EA=EA, GA=np.inf),
         models=("continuum", "discrete"),
-    )
-
-
-def follower() -> Case:
-    """Tip force that stays normal to the tip section, P L²/EI = 10, inextensible."""
-
-    def scene(pose: Pose) -> Scene:
-        return Scene(
-            rods=[straight(RIGID, pose)],
-            supports=[Clamp(at="start")],
-            loads=[FollowerForce((0.0, 10.0, 0.0), at="end")],
-        )
-
-    return Case(
-        name="follower-10",
-        title="Follower tip force, PL²/EI = 10, inextensible",
-        family="elastica",
-        scene=scene,
-        reference=tabulated("C1-inext-alpha10"),
-        length=1.0,
     )
 
 

@@ -1,4 +1,4 @@
-"""Cantilever rolled up by an end moment: π, 2π, 4π EI/L."""
+"""Cantilever rolled up by an end moment: π, 2π, 4π, 10π EI/L."""
 
 from __future__ import annotations
 
@@ -49,4 +49,4 @@ def rolled(turns: float) -> Case:
     )
 
 
-CASES = (rolled(0.5), rolled(1.0), rolled(2.0))
+CASES = (rolled(0.5), rolled(1.0), rolled(2.0), rolled(5.0))

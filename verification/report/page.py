@@ -69,7 +69,7 @@ def html(report: Report) -> str:
     """The whole page."""
     css = files("verification.report").joinpath("style.css").read_text(encoding="utf-8")
     links = "".join(f'<a href="#{key}">{title}</a>' for key, title in CONTENTS.items())
-    kind = "Quick run: fewer meshes and repetitions, every limit checked. " if report.quick else ""
+    kind = "Quick run: fewer meshes, degrees and repetitions, every limit checked. " if report.quick else ""
     body = "\n".join(section(key, content) for key, content in contents(report).items())
     return f"""<!doctype html>
 <html lang="en">

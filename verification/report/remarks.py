@@ -21,7 +21,10 @@ REASONS = {
     "rollup": "the moment is constant along the rod, so planar angles are exact and the tip errs only by the "
     "Gauss rule, with order 2k + 2, which in space the interpolated quaternions keep for odd k",
     "elastica": "",
+    "follower": "",
+    "heavy": "",
     "bend45": "",
+    "parabola": "",
 }
 LITERAL = (
     "Eq. 16 as printed measures the elongation along the tangent of node i, where an arc of curvature κ and length l "

@@ -1,4 +1,4 @@
-"""Deformed shapes of the three families."""
+"""Deformed shapes of the five families."""
 
 from __future__ import annotations
 
@@ -19,13 +19,20 @@ if TYPE_CHECKING:
 
 __all__ = ["deformed"]
 
+# Families in the x-y plane, with their titles.
+FLAT = {
+    "elastica": "Elastica, PL²/EI = 1, 2, 5, 10",
+    "follower": "Follower, PL²/EI = 1, 2, 5, 10, 20",
+    "heavy": "Heavy, wL³/EI = 1, 5, 10, 20, 50",
+    "rollup": "Roll-up, M = π, 2π, 4π, 10π EI/L",
+}
 UNSHRUNK = {"shrinkA": 0, "shrinkB": 0}
 # Direction from which the bend is seen: azimuth and elevation [rad].
 AZIMUTH, ELEVATION = np.radians(-112.0), np.radians(20.0)
 
 
 def deformed(report: Report) -> str:
-    """Both models on the three problems, the references' tips as crosses.
+    """Both models on the five problems, the references' tips as crosses.
 
     Args:
         report: With shapes.
@@ -34,23 +41,22 @@ def deformed(report: Report) -> str:
         SVG.
     """
     with mpl.rc_context(STYLE):
-        canvas, axes = figure(3, size=(11.4, 4.1), gridspec_kw={"width_ratios": (1.0, 1.0, 1.12)})
-        by_family = {f: [s for s in report.shapes if s.family == f] for f in ("elastica", "rollup", "bend45")}
-        for ax, family in zip(axes[:2], ("elastica", "rollup"), strict=True):
-            flat(ax, by_family[family])
-        finish(axes[0], title="Elastica, PL²/EI = 1, 2, 5, 10", x="x / L", y="y / L")
-        finish(axes[1], title="Roll-up, M = π, 2π, 4π EI/L", x="x / L", y="y / L")
-        seen(axes[2], by_family["bend45"])
-        axes[2].set_title("45° bend, F = 300 and 600 along z")
+        canvas, axes = figure(3, rows=2, size=(11.4, 7.6), gridspec_kw={"width_ratios": (1.0, 1.0, 1.12)})
+        for ax, (family, title) in zip(axes, FLAT.items(), strict=False):
+            flat(ax, (s for s in report.shapes if s.family == family))
+            finish(ax, title=title, x="x / L", y="y / L")
+        seen(axes[4], (s for s in report.shapes if s.family == "bend45"))
+        axes[4].set_title("45° bend, F = 300 and 600 along z")
+        axes[5].set_axis_off()
         handles = [
-            mpl.lines.Line2D([], [], color=DEGREES[4], label="continuum, 16 × P5"),
-            mpl.lines.Line2D([], [], color=CHAIN, marker="o", ls="", ms=3.4, label="discrete, 40 elements"),
+            mpl.lines.Line2D([], [], color=DEGREES[4], label="continuum, 16 × P5 a turn"),
+            mpl.lines.Line2D([], [], color=CHAIN, marker="o", ls="", ms=3.4, label="discrete, 40 elements a turn"),
             mpl.lines.Line2D([], [], color=PEER, lw=1.0, ls=(0, (4, 2)), label="stress free"),
             mpl.lines.Line2D([], [], color=INK, marker="+", ls="", ms=9, label="reference tip"),
         ]
-        canvas.legend(handles=handles, loc="lower center", ncol=4)
-        canvas.get_layout_engine().set(h_pad=0.06, w_pad=0.08, rect=(0, 0.08, 1, 0.92))
-    return svg(canvas, "Deformed shapes of elastica, roll-up and 45 degree bend by both models")
+        axes[5].legend(handles=handles, loc="center")
+        canvas.get_layout_engine().set(h_pad=0.06, w_pad=0.08)
+    return svg(canvas, f"Deformed shapes by both models: {', '.join(FLAT.values())}, 45 degree bend")
 
 
 def flat(axes: Axes, shapes: Iterable[Shape]) -> None:
