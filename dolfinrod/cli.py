@@ -139,6 +139,8 @@ def _read(path: Path) -> tuple[Scene, dict[str, Any]]:
         raise SceneError(f"{path} cannot be read: {error.strerror}") from error
     except SceneError as error:
         raise SceneError(f"{path}: {error}") from error
+    except ValueError as error:  # no file can have such a name
+        raise SceneError(f"{path} cannot be read: {error}") from error
     return scene, chosen
 
 
@@ -148,7 +150,7 @@ def _check_options(chosen: Mapping[str, Any]) -> None:
     for key, value in chosen.items():
         if key not in known:
             raise SceneError(f"solve.{key} is unknown; known are {', '.join(known)}")
-        if key == "kinematics" and value not in KINEMATICS:
+        if key == "kinematics" and not (isinstance(value, str) and value in KINEMATICS):
             raise SceneError(f"solve.kinematics must be {' or '.join(KINEMATICS)}, got {value!r}")
 
 
@@ -206,9 +208,10 @@ def _is_first_rank() -> bool:
 
 
 def _complain(message: str) -> None:
-    """One line on stderr, from one rank."""
+    """One line on stderr, from one rank; what would steer the terminal is escaped."""
     if _is_first_rank():
-        print("dolfinrod:", " ".join(message.split()), file=sys.stderr)
+        line = " ".join(message.split())
+        print("dolfinrod:", "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line), file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from dolfinrod.continuum.readout import Readout
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stepping import Path, StepFailed, walk
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
-from dolfinrod.scene import Planar, SceneError
+from dolfinrod.scene import Planar, SceneError, Spatial
 from dolfinrod.scene.kinematics import detect, obstacle
 from dolfinrod.scene.mechanism import advice
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from dolfinrod.continuum.kinematics import Kinematics
     from dolfinrod.result import StepLog
-    from dolfinrod.scene import Scene, Spatial
+    from dolfinrod.scene import Scene
 
     Progress = Callable[[StepLog, float], None]
 
@@ -49,7 +49,7 @@ def solve(
 ) -> Result:
     """Equilibrium of geometrically exact rods (Simo-Reissner, Kirchhoff in the limit); see `dolfinrod.solve`."""
     comm = MPI.COMM_WORLD if comm is None else comm
-    if degree not in DEGREES:
+    if not isinstance(degree, int | np.integer) or isinstance(degree, bool) or degree not in DEGREES:
         raise SceneError(f"degree must be 1, 2, 3, 4 or 5, got {degree!r}")
     chosen = choose(scene, kinematics)
     counts = element_counts(scene, elements)
@@ -113,8 +113,10 @@ def choose(scene: Scene, kinematics: Planar | Spatial | None) -> Planar | Spatia
     found = detect(scene)
     if kinematics is None:
         return found
-    if not isinstance(kinematics, Planar):
+    if isinstance(kinematics, Spatial):
         return kinematics
+    if not isinstance(kinematics, Planar):
+        raise SceneError(f"kinematics must be Planar(), Spatial() or None, got {kinematics!r}")
     if kinematics.normal is None:
         if not isinstance(found, Planar):
             raise SceneError("kinematics must be Spatial(): the scene does not lie in one plane")

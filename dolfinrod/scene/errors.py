@@ -4,6 +4,8 @@ from __future__ import annotations
 
 __all__ = ["SceneError"]
 
+MOST_CHARACTERS = 1000
+
 
 class SceneError(ValueError):
     """Input that poses no mechanical problem, in the user's words: the field, the rule, the value and its unit.
@@ -17,6 +19,7 @@ class SceneError(ValueError):
     """
 
     def __init__(self, message: str, *, field: str = "") -> None:
+        message, field = _short(message), _short(field)
         super().__init__(f"{field} {message}" if field else message)
         self.message = message
         self.field = field
@@ -32,3 +35,9 @@ class SceneError(ValueError):
         """
         _, dot, rest = self.field.partition(".")
         return SceneError(self.message, field=path + dot + rest)
+
+
+def _short(text: str) -> str:
+    """The text, without its middle where a quoted value makes it endless."""
+    half = MOST_CHARACTERS // 2
+    return text if len(text) <= MOST_CHARACTERS else f"{text[:half]} … {text[-half + 3 :]}"

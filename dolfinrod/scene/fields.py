@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from inspect import Parameter, signature
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeGuard
 
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.history import Steady
 from dolfinrod.units import UnitError, has_unit, si
 
 __all__ = ["At", "Field", "Growth", "Kind", "Modulus", "Plain", "Quantity", "Specific", "refuse_unknown"]
+
+MOST_CHARACTERS = 100
+# 9**9**9 and N**9**9**9 are numbers that no computer writes down.
+POWER_OF_NUMBER = re.compile(r"\d[\s)]*(?:\*\*|\^)")
 
 
 class Field(Protocol):
@@ -57,10 +63,10 @@ class Quantity:
             return tuple(self.read(entry, f"{path}[{i}]") for i, entry in enumerate(value))
         if self.word is not None and value == self.word:
             return None
-        try:
+        if _is_number(value):
+            return value
+        with _readable(value, self.unit, path):
             return si(value, self.unit)
-        except UnitError as error:
-            raise SceneError(str(error), field=path) from None
 
     def write(self, value: Any, path: str) -> Any:
         """Text with the shortest digits that give the same double back."""
@@ -82,16 +88,19 @@ class Modulus:
 
     def read(self, value: Any, path: str) -> float | Specific:
         """Pascals, or `Specific` where the unit says so."""
-        try:
+        if _is_number(value):
+            return value
+        with _readable(value, "Pa", path):
             if has_unit(value, "N/tex"):
                 return Specific(si(value, "m**2/s**2"))
             return si(value, "Pa")
-        except UnitError as error:
-            raise SceneError(str(error), field=path) from None
 
     def write(self, value: Any, path: str) -> str:
         """Pascals."""
         return Quantity("Pa").write(value, path)
+
+
+METRE = Quantity("m")
 
 
 @dataclass(frozen=True)
@@ -103,8 +112,8 @@ class At:
         if value in ("start", "end"):
             return value
         try:
-            return si(value, "m")
-        except UnitError:
+            return METRE.read(value, path)
+        except SceneError:
             raise SceneError(f'must be "start", "end" or a length, got {value!r}', field=path) from None
 
     def write(self, value: Any, path: str) -> str:
@@ -187,4 +196,24 @@ def refuse_unknown(table: Mapping[str, Any], known: Collection[str], path: str) 
     """Every key of a table is known."""
     for name in table:
         if name not in known:
-            raise SceneError(f"is not known here; known are {', '.join(known)}", field=f"{path}.{name}".lstrip("."))
+            place = f"{path}.{name}" if name else f'{path}.""'
+            raise SceneError(f"is not known here; known are {', '.join(known)}", field=place.lstrip("."))
+
+
+def _is_number(value: Any) -> TypeGuard[float]:
+    """Whether TOML holds a plain number: SI already, and the constructor judges its size."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+@contextmanager
+def _readable(value: object, unit: str, path: str) -> Iterator[None]:
+    """What a text says is a quantity of sane size; complaints name the path."""
+    refusal = SceneError(f"must be a quantity in {unit}, got {value!r}", field=path)
+    if isinstance(value, str) and (len(value) > MOST_CHARACTERS or POWER_OF_NUMBER.search(value)):
+        raise refusal
+    try:
+        yield
+    except UnitError as error:
+        raise SceneError(str(error), field=path) from None
+    except ZeroDivisionError:
+        raise refusal from None

@@ -9,7 +9,7 @@ from itertools import pairwise
 from operator import itemgetter
 
 from dolfinrod.scene.errors import SceneError
-from dolfinrod.scene.quantity import entries, number
+from dolfinrod.scene.quantity import entries, listed, number
 
 __all__ = ["History", "Steady", "factor", "history", "kinks"]
 
@@ -40,7 +40,7 @@ def history(value: object, field: str) -> Steady | Table | Callable[[float], flo
         return value
     if not isinstance(value, Iterable) or isinstance(value, str):
         raise SceneError(f"must be None, Steady(), rows (t, factor) or a function of t, got {value!r}", field=field)
-    rows = [entries(row, f"{field}[{i}]", "", 2) for i, row in enumerate(value)]
+    rows = [entries(row, f"{field}[{i}]", "", 2) for i, row in enumerate(listed(value))]
     table = tuple((number(t, f"{field}[{i}][0]"), number(f, f"{field}[{i}][1]")) for i, (t, f) in enumerate(rows))
     if not table:
         raise SceneError("must have at least one row (t, factor), got none", field=field)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence, Set
 from math import inf, isfinite, nan
 from numbers import Integral, Real
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,8 @@ __all__ = [
     "VectorLike",
     "assign",
     "count",
+    "entries",
+    "listed",
     "names",
     "nonnegative",
     "number",
@@ -99,10 +101,18 @@ def vector(value: object, field: str, unit: str = "") -> Vector:
 
 def entries(value: object, field: str, unit: str, n: int) -> tuple[object, ...]:
     """The `n` entries of a sequence, not yet checked one by one."""
-    found = tuple(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else ()
+    found = listed(value)
     if len(found) != n:
         raise SceneError(f"must have {n} entries{f' [{unit}]' * bool(unit)}, got {value!r}", field=field)
     return found
+
+
+def listed(value: Any) -> tuple[object, ...]:
+    """The entries of what has an order; none of a text, a set, a table or a single value."""
+    try:
+        return () if isinstance(value, (str, bytes, Set, Mapping)) else tuple(value)
+    except TypeError:
+        return ()
 
 
 def count(value: object, field: str) -> int:
@@ -123,18 +133,18 @@ def rod_index(value: object, field: str) -> int | None:
 
 def place(value: object, field: str) -> Place:
     """A point on a rod: "start", "end" or arc length from the start [m]."""
-    if value == "start":
-        return "start"
-    if value == "end":
-        return "end"
     if isinstance(value, str):
+        if value == "start":
+            return "start"
+        if value == "end":
+            return "end"
         raise SceneError(f'must be "start", "end" or an arc length [m], got {value!r}', field=field)
     return nonnegative(value, field, "m")
 
 
 def names(value: object, field: str, known: Sequence[str]) -> frozenset[str]:
     """A set of names out of those known."""
-    given = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
-    if any(name not in known for name in given):
+    given = value if isinstance(value, (Set, list, tuple)) else listed(value) or (value,)
+    if any(not isinstance(name, str) or name not in known for name in given):
         raise SceneError(f"must be a set of names out of {', '.join(known)}, got {value!r}", field=field)
     return frozenset(str(name) for name in given)

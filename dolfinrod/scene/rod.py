@@ -42,6 +42,10 @@ class Rod:
     def __post_init__(self) -> None:
         if not isinstance(self.section, Section):
             raise SceneError(f"must be a Section, got {self.section!r}", field="Rod.section")
+        if not isinstance(self.shape, Shape):
+            raise SceneError(
+                f"must be a framed curve, such as Rod.straight makes, got {self.shape!r}", field="Rod.shape"
+            )
         assign(self, pretwist=number(self.pretwist, "Rod.pretwist", "rad/m"))
 
     @classmethod

@@ -98,7 +98,8 @@ class Section:
             SceneError: A number that is not finite and positive.
         """
         d = positive(diameter, "Section.diameter", "m")
-        A, second = pi * d**2 / 4, pi * d**4 / 64
+        A = pi * d * d / 4
+        second = A * d * d / 16
         return cls._solid(A, (second, second), 2 * second, E, G, density, shear_factor, rigid, radius=d / 2)
 
     @classmethod
@@ -134,11 +135,12 @@ class Section:
         """
         b = positive(width, "Section.width", "m")
         h = positive(height, "Section.height", "m")
-        second = (b * h**3 / 12, h * b**3 / 12)
-        if torsion not in ("st_venant", "polar"):
+        A = b * h
+        second = (A * h * h / 12, A * b * b / 12)
+        if not isinstance(torsion, str) or torsion not in ("st_venant", "polar"):
             raise SceneError(f'must be "st_venant" or "polar", got {torsion!r}', field="Section.torsion")
         J = sum(second) if torsion == "polar" else st_venant_constant(b, h)
-        return cls._solid(b * h, second, J, E, G, density, shear_factor, rigid)
+        return cls._solid(A, second, J, E, G, density, shear_factor, rigid)
 
     @classmethod
     def ramie(cls, *, rigid: Iterable[str] = frozenset()) -> Section:
@@ -213,7 +215,7 @@ def st_venant_constant(width: float, height: float) -> float:
     a, b = max(width, height), min(width, height)
     # Terms fall as n⁻⁵: the remainder beyond n = 4001 is below 1/(8·4000⁴) = 5e-16.
     total = sum(tanh(n * pi * a / (2 * b)) / n**5 for n in range(4001, 0, -2))
-    return a * b**3 * (1 / 3 - 64 / pi**5 * b / a * total)
+    return a * b * b * b * (1 / 3 - 64 / pi**5 * b / a * total)
 
 
 def _pair(value: object, field: str, unit: str) -> Pair:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 ROUND_OFF = 8 * np.finfo(float).eps
 
 
+@runtime_checkable
 class Shape(Protocol):
     """A framed curve over arc length s: r(s) and R(s) = [d1 d2 d3] with r′ = d1 and R′ = R·skew(κ)."""
 

@@ -22,6 +22,7 @@ Plain numbers are SI. A section is `circle`, `rectangle` or `ramie`, or has the 
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -39,6 +40,11 @@ from dolfinrod.scene.spline import Spline
 
 __all__ = ["dumps", "load", "loads"]
 
+# Far beyond any scene, and read within seconds: tomllib's time grows with the square of the names in a dotted key.
+MOST_BYTES = 4_000_000
+NAME = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+"""
+ENDLESS_KEY = re.compile(rf"""(?<![\w"'-])(?:{NAME}\.[ \t]*+){{32}}""")
+
 
 def load(path: str | Path) -> tuple[Scene, dict[str, Any]]:
     """A scene from a file.
@@ -53,29 +59,47 @@ def load(path: str | Path) -> tuple[Scene, dict[str, Any]]:
         SceneError: Not TOML, or a field that is unknown, missing, or cannot be.
         OSError: The file cannot be read.
     """
+    with Path(path).open("rb") as file:
+        data = file.read(MOST_BYTES + 1)
+    if len(data) > MOST_BYTES:
+        raise SceneError(f"a scene must be a file of at most {MOST_BYTES} bytes")
     try:
-        return loads(Path(path).read_text(encoding="utf-8"))
+        return loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise SceneError(f"{path} must be text in UTF-8: {error}") from None
 
 
 def loads(text: str) -> tuple[Scene, dict[str, Any]]:
     """A scene from the text of a file; as `load`."""
+    if ENDLESS_KEY.search(text):
+        raise SceneError("a scene must not nest tables so deeply: more than 32 names joined by dots")
     try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+        data = _parsed(text)
+        return _scene(data), _table(data.get("solve", {}), "solve")
+    except RecursionError:
+        raise SceneError("a scene must not nest lists and tables so deeply") from None
+
+
+def _parsed(text: str) -> dict[str, Any]:
+    """What TOML holds; numbers of thousands of digits are a ValueError of their own."""
+    try:
+        return tomllib.loads(text)
+    except ValueError as error:
         raise SceneError(f"a scene must be a TOML file: {error}") from None
+
+
+def _scene(data: Mapping[str, Any]) -> Scene:
+    """The scene that the tables of a file describe."""
     refuse_unknown(data, ("section", "rods", "supports", "loads", "motion", "solve"), "")
     sections = {
         name: _section(table, f"section.{name}") for name, table in _table(data.get("section", {}), "section").items()
     }
-    scene = Scene(
+    return Scene(
         rods=[_rod(table, f"rods[{i}]", sections) for i, table in enumerate(_list(data, "rods"))],
         supports=[_one(SUPPORTS, table, f"supports[{i}]") for i, table in enumerate(_list(data, "supports"))],
         loads=[_one(LOADS, table, f"loads[{i}]") for i, table in enumerate(_list(data, "loads"))],
-        motion=_one(MOTIONS, data["motion"], "motion") if data.get("motion") else Static(),
+        motion=_one(MOTIONS, data["motion"], "motion") if data.get("motion", {}) != {} else Static(),
     )
-    return scene, _table(data.get("solve", {}), "solve")
 
 
 def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
