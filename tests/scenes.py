@@ -170,3 +170,29 @@ def interpolated(s: Array, values: Array, degree: int, at: Array) -> Array:
             if i != j:
                 basis[:, i] *= (at - x[:, j]) / (x[:, i] - x[:, j])
     return np.einsum("ni,nid->nd", basis, values[nodes])
+
+
+# "A complete scene file" of the design, word for word.
+COMPLETE = """
+[section.ramie.circle]
+diameter = "20 um"
+E = "2224.6 cN/tex"        # specific modulus: multiplied by the density
+G = "106.2 cN/tex"
+density = "1.54 g/cm**3"
+
+[[rods]]
+straight = { length = "40 mm", start = ["0 mm", "0 mm", "0 mm"], direction = [1, 0, 0] }
+section = "ramie"
+
+[[supports]]
+clamp = { at = "start" }
+
+[[loads]]
+point_force = { at = "end", force = ["0 N", "-1 uN", "0 N"] }
+
+[motion.static]
+
+[solve]
+elements = 16
+degree = 3
+"""

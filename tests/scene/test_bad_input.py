@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import discrete
 import dolfinrod as dr
 from dolfinrod.scene import SceneError, toml
+from tests.scenes import COMPLETE
 
 SECTION = dr.Section(EA=1.0, GA=1.0, GJ=1.0, EI=1.0)
 ROD = dr.Rod.straight(1.0, SECTION)
@@ -21,30 +22,6 @@ CLAMP = dr.Clamp("start")
 UP = (0, 0, 1)
 PUSH = dr.PointForce(UP, "end")
 CANTILEVER = dr.Scene([ROD], [CLAMP], [PUSH])
-
-COMPLETE = """
-[section.ramie.circle]
-diameter = "20 um"
-E = "2224.6 cN/tex"
-G = "106.2 cN/tex"
-density = "1.54 g/cm**3"
-
-[[rods]]
-straight = { length = "40 mm", start = ["0 mm", "0 mm", "0 mm"], direction = [1, 0, 0] }
-section = "ramie"
-
-[[supports]]
-clamp = { at = "start" }
-
-[[loads]]
-point_force = { at = "end", force = ["0 N", "-1 uN", "0 N"] }
-
-[motion.static]
-
-[solve]
-elements = 16
-degree = 3
-"""
 
 
 def section(**changes: object) -> Callable[[], object]:

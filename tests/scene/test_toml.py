@@ -12,31 +12,7 @@ from hypothesis import strategies as st
 import dolfinrod as dr
 from dolfinrod.scene import Load, SceneError, Support
 from dolfinrod.scene.toml import dumps, load, loads
-
-# "A complete scene file" of the design, word for word.
-COMPLETE = """
-[section.ramie.circle]
-diameter = "20 um"
-E = "2224.6 cN/tex"        # specific modulus: multiplied by the density
-G = "106.2 cN/tex"
-density = "1.54 g/cm**3"
-
-[[rods]]
-straight = { length = "40 mm", start = ["0 mm", "0 mm", "0 mm"], direction = [1, 0, 0] }
-section = "ramie"
-
-[[supports]]
-clamp = { at = "start" }
-
-[[loads]]
-point_force = { at = "end", force = ["0 N", "-1 uN", "0 N"] }
-
-[motion.static]
-
-[solve]
-elements = 16
-degree = 3
-"""
+from tests.scenes import COMPLETE
 
 numbers = st.floats(-1e9, 1e9)
 positive = st.floats(1e-12, 1e12)
