@@ -101,6 +101,7 @@ class Discretization:
         elements = self.forms.elements
         self.space = backend.space(self.mesh, elements["x"])
         self.x = backend.function(self.space)
+        self._assembled = backend.function(self.space)
         self.r_0, self.C_n, self.C_m, self.f = (
             backend.function(backend.space(self.mesh, elements[name])) for name in ("r_0", "C_n", "C_m", "f")
         )
@@ -133,7 +134,8 @@ class Discretization:
 
     def assembled_residual(self) -> NDArray[np.float64]:
         """Residual of the forms at the current state, summed over all ranks, on all local dofs."""
-        b = backend.function(self.space)
+        b = self._assembled
+        b.x.array[:] = 0.0
         self.residual.add_vector(b.x.array)
         backend.sum_over_ranks(b)
         return b.x.array
