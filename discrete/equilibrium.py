@@ -114,7 +114,11 @@ class Equilibrium:
 
     def __init__(self, mesh: Mesh, element: Element, loads: Loads, supports: Supports) -> None:
         self.mesh, self.element, self.loads, self.supports = mesh, element, loads, supports
-        self.system = NodalSystem(mesh, supports.held)
+        self.hold(np.zeros(0, dtype=np.int64))
+
+    def hold(self, unknowns: NDArray[np.int64]) -> None:
+        """Hold these unknowns where they are, on top of the supports, until the next call."""
+        self._system = NodalSystem(self.mesh, np.union1d(self.supports.held, unknowns))
 
     def begin(self) -> State:
         """Stress-free state."""
@@ -164,7 +168,7 @@ class Equilibrium:
         end = tangent[:, X_J].copy()
         missing = level.at(state.R) - scatter(force, node_i, len(state.x))
         held = self.supports.increments(state.x, state.factors, goal)
-        d, residual = self.system.increments(tangent, missing, held, level, self.supports.guides, state.R)
+        d, residual = self._system.increments(tangent, missing, held, level, self.supports.guides, state.R)
         own = gather(d, node_i)
         N = force[:, X_J] + np.matmul(end, own[:, :, None])[:, :, 0]
         spin = _chord_spin(state.u, own[:, X_J] - own[:, X_I] + gap, 0.5 * (own[:, SPIN_I] + own[:, SPIN_J]), e)

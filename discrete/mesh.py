@@ -11,6 +11,7 @@ import numpy as np
 from discrete.element import stiffness
 from discrete.frames import element_frame
 from dolfinrod.scene import SceneError
+from dolfinrod.scene.options import element_counts
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Counts = NDArray[np.int64]
 
-__all__ = ["RIGID_EXTENSION", "Elements", "Mesh", "Units", "element_counts", "mesh"]
+__all__ = ["RIGID_EXTENSION", "Elements", "Mesh", "Units", "mesh"]
 
 # EA of a rod that cannot stretch, in EI/L²: the chord changes its length by a hundred-millionth under EI/L².
 RIGID_EXTENSION = 1e8
@@ -125,7 +126,7 @@ def mesh(scene: Scene, elements: int | Sequence[int]) -> Mesh:
     Raises:
         SceneError: Not a number of elements, or too few to have a node at every such place.
     """
-    s = tuple(_nodes(scene, j, n) for j, n in enumerate(element_counts(scene, elements)))
+    s = tuple(_nodes(scene, j, n) for j, n in enumerate(element_counts(elements, len(scene.rods))))
     units = Units(
         length=max(rod.length for rod in scene.rods), stiffness=max(max(rod.section.EI) for rod in scene.rods)
     )
@@ -135,21 +136,6 @@ def mesh(scene: Scene, elements: int | Sequence[int]) -> Mesh:
     first = np.concatenate([[0], np.cumsum([len(nodes) for nodes in s])])
     x /= units.length
     return Mesh(units, origin, s, first, x, R, _elements(scene.rods, units, s, first, x, R))
-
-
-def element_counts(scene: Scene, elements: int | Sequence[int]) -> tuple[int, ...]:
-    """Number of elements of each rod.
-
-    Raises:
-        SceneError: Not a whole positive number, or not one a rod.
-    """
-    counts = tuple(elements) if isinstance(elements, Sequence) else (elements,) * len(scene.rods)
-    if len(counts) != len(scene.rods):
-        raise SceneError(f"elements must be one number or one for each of {len(scene.rods)} rods, got {elements!r}")
-    for n in counts:
-        if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 1:
-            raise SceneError(f"elements must be whole numbers of at least 1, got {elements!r}")
-    return tuple(int(n) for n in counts)
 
 
 def _nodes(scene: Scene, rod: int, n: int) -> Array:

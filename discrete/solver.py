@@ -14,6 +14,7 @@ from discrete.equilibrium import Equilibrium, State
 from discrete.increments import Increments
 from discrete.loads import Loads
 from discrete.mesh import RIGID_EXTENSION, mesh
+from discrete.neutral import PhaseCondition
 from discrete.nodeframe import EnergyNodeElement, PaperElement
 from discrete.record import histories
 from discrete.restart import restored, stored
@@ -21,6 +22,7 @@ from discrete.statics import Path, StepFailed, stride, walk
 from discrete.supports import Supports
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import SceneError
+from dolfinrod.scene.door import admit
 from dolfinrod.scene.mechanism import advice
 
 if TYPE_CHECKING:
@@ -66,6 +68,7 @@ def solve(
         SceneError: The scene or an option cannot be solved as given.
         NotConverged: A load step could not be taken; carries what had converged.
     """
+    admit(scene, start, Result)
     _check(axial, frame, equilibrium, start)
     started = time.perf_counter()
     run = _prepare(scene, mesh(scene, elements), axial, frame, equilibrium, start)
@@ -80,11 +83,13 @@ class _Run:
         mesh: Nodes and elements.
         path: Its first state.
         follow: Lets the path grow to the end of the pseudo-time.
+        notes: What a user should know of the last state.
     """
 
     mesh: Mesh
     path: Path[State] | Path[Carried]
     follow: Callable[[Progress | None], None]
+    notes: Callable[[], tuple[str, ...]]
 
 
 def _prepare(scene: Scene, cut: Mesh, axial: str, frame: str, equilibrium: bool, start: Result | None) -> _Run:
@@ -92,12 +97,13 @@ def _prepare(scene: Scene, cut: Mesh, axial: str, frame: str, equilibrium: bool,
     loads, supports = Loads(scene, cut), Supports(scene, cut)
     if equilibrium:
         method = Equilibrium(cut, _law(cut.elements, axial, frame), loads, supports)
+        phase = PhaseCondition(method)
         path, t = _begin(method, scene, start)
-        return _Run(cut, path, partial(walk, method, path, t, scene))
+        return _Run(cut, path, partial(walk, method, phase, path, t, scene), lambda: phase.notes)
     increments = Increments(cut, loads, supports, node_frame=frame == "node_i")
     carried = Path(increments.begin())
     carried.kept.append(increments.snapshot(carried.state, 0.0))
-    return _Run(cut, carried, partial(stride, increments, carried, 0.0, scene))
+    return _Run(cut, carried, partial(stride, increments, carried, 0.0, scene), tuple)
 
 
 def _followed(scene: Scene, run: _Run, seconds_setup: float, progress: Progress | None) -> Result:
@@ -113,7 +119,7 @@ def _followed(scene: Scene, run: _Run, seconds_setup: float, progress: Progress 
     except StepFailed as caught:
         failure = caught
     seconds = (seconds_setup, time.perf_counter() - started)
-    result = _result(scene, run.mesh, run.path, seconds, converged=failure is None)
+    result = _result(scene, run, seconds, converged=failure is None)
     if failure is not None:
         raise NotConverged(
             result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice(scene)
@@ -156,9 +162,8 @@ def _begin(method: Equilibrium, scene: Scene, start: Result | None) -> tuple[Pat
     return path, t
 
 
-def _result(
-    scene: Scene, cut: Mesh, path: Path[State] | Path[Carried], seconds: tuple[float, float], *, converged: bool
-) -> Result:
+def _result(scene: Scene, run: _Run, seconds: tuple[float, float], *, converged: bool) -> Result:
+    cut, path = run.mesh, run.path
     n_nodes, n_elements = len(cut.x), len(cut.elements.l)
     unknowns = {"x": 3 * n_nodes, "rotation": 3 * n_nodes}
     if isinstance(path.state, State):
@@ -166,6 +171,7 @@ def _result(
     notes = ["no shear: GA ignored, as in the paper"]
     if any("extension" in rod.section.rigid for rod in scene.rods):
         notes.append(f"rigid extension: EA = {RIGID_EXTENSION:.0e}·EI/L²")
+    notes += run.notes()
     return Result(
         scene=scene,
         t=np.array([kept.t for kept in path.kept]),

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from discrete.equilibrium import Equilibrium, State
     from discrete.increments import Carried, Increments
+    from discrete.neutral import PhaseCondition
     from discrete.record import Snapshot
     from dolfinrod.scene import Scene
 
@@ -85,6 +86,7 @@ def targets(scene: Scene, t_0: float, steps: int) -> list[float]:
 
 def walk(
     equilibrium: Equilibrium,
+    phase: PhaseCondition,
     path: Path[State],
     t: float,
     scene: Scene,
@@ -94,6 +96,7 @@ def walk(
 
     Args:
         equilibrium: The solver.
+        phase: Its free motions.
         path: Where to begin; grows.
         t: Pseudo-time there.
         scene: The problem.
@@ -108,11 +111,11 @@ def walk(
         while t < target:
             trial = min(step, target - t)
             t_next = target if trial >= target - t else t + trial
-            outcome = equilibrium.find(path.state, t_next)
+            outcome = phase.find(path.state, t_next)
             path.iterations += outcome.iterations
             if not outcome.converged:
                 cuts, step = cuts + 1, trial / 2.0
-                if step < smallest:
+                if step <= smallest:
                     raise StepFailed(t=t, step=trial, reason=outcome.reason)
                 continue
             path.state, t = outcome.state, t_next

@@ -117,6 +117,22 @@ class Supports:
         self._moved = [part for part in scene.supports if isinstance(part, Prescribed)]
         self.turns = self._turns()
 
+    def resisted(self, R: Array) -> tuple[Indices, Array]:
+        """Velocities (v, ω) that supports resist.
+
+        Args:
+            R: Section frames, shape (n_nodes, 3, 3).
+
+        Returns:
+            Nodes, shape (m,), and the directions held there, shape (m, 6).
+        """
+        plain = self._places.copy()
+        plain[self.guides.nodes, 3:] = False
+        node, place = np.nonzero(plain)
+        turned = np.zeros((len(self.guides.nodes), 6))
+        turned[:, 3:] = self.guides.linearized(R)[1]
+        return np.concatenate([node, self.guides.nodes]), np.concatenate([np.eye(6)[place], turned])
+
     @property
     def n_factors(self) -> int:
         """Number of prescribed motions."""

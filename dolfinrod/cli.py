@@ -1,6 +1,7 @@
 """The command `dolfinrod`: solve a scene file, say what it holds, verify the models.
 
-Exit codes: 0 solved, 1 not converged (what had converged is written), 2 bad input (nothing is written).
+Exit codes: 0 solved, 1 not converged (what had converged is written), 2 bad input (nothing is written); `verify`:
+1 a number beyond its limit, 130 interrupted.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from dolfinrod.output import contents, summary, versions, write
 from dolfinrod.progress import ProgressLine
 from dolfinrod.result import NotConverged
 from dolfinrod.scene import Planar, Scene, SceneError, Spatial, toml
+from verification import __main__ as verification
 
 if TYPE_CHECKING:
     from dolfinrod.result import Result, StepLog
@@ -38,6 +40,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         Exit code of the process.
     """
+    if arguments is None:
+        _settle_threads()
     options = _parser().parse_args(arguments)
     try:
         return options.command(options)
@@ -86,9 +90,17 @@ def info(options: argparse.Namespace) -> int:
 
 def verify(options: argparse.Namespace) -> int:
     """Solve the verification cases with both models and report."""
-    from verification.__main__ import main as report
+    if _ranks() > 1:
+        raise SceneError(f"verify measures one process, got {_ranks()} ranks")
+    _check_writable(options.out)
+    return verification.verify(options)
 
-    return report(["--quick"] if options.quick else [])
+
+def _settle_threads() -> None:
+    """Begin `dolfinrod verify` anew on one thread: times have to mean something, and NumPy has loaded by now."""
+    if sys.argv[1:2] == ["verify"] and "OMP_NUM_THREADS" not in os.environ:
+        os.environ["OMP_NUM_THREADS"] = "1"
+        os.execv(sys.executable, [sys.executable, "-m", "verification", *sys.argv[2:]])
 
 
 class _Parser(argparse.ArgumentParser):
@@ -113,9 +125,11 @@ def _parser() -> argparse.ArgumentParser:
     command = commands.add_parser("info", help="versions; what a scene holds", description=info.__doc__)
     command.set_defaults(command=info)
     command.add_argument("scene", metavar="SCENE.toml", type=Path, nargs="?")
-    command = commands.add_parser("verify", help="errors and times of both models", description=verify.__doc__)
+    command = commands.add_parser(
+        "verify", help="errors and times of both models", description=verification.DESCRIPTION
+    )
     command.set_defaults(command=verify)
-    command.add_argument("--quick", action="store_true", help="two resolutions a case")
+    verification.add_options(command)
     return parser
 
 
@@ -199,6 +213,12 @@ def _petsc() -> dict[str, str]:
     version = ".".join(str(part) for part in PETSc.Sys.getVersion())
     library = MPI.Get_library_version().split(",")[0].rstrip("\0\n")
     return {"PETSc": f"{version} ({PETSc.ScalarType.__name__})", "MPI": library}
+
+
+def _ranks() -> int:
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD.size
 
 
 def _is_first_rank() -> bool:

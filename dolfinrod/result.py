@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from dolfinrod.scene import Scene
@@ -155,6 +157,54 @@ class Result:
     def tip(self) -> NDArray[np.float64]:
         """End of the first rod at the last stored state, shape (3,) [m]."""
         return self.rods[0].r[-1, -1]
+
+    def write(self, folder: str | Path) -> None:
+        """Leave everything in a folder, replacing what an earlier result left there.
+
+        Tables (`rod-0.csv`, …), a series for ParaView (`rods.pvd`), the scene (`scene.toml`), the record
+        (`result.json`) and the state (`state.npz`). Every rank may write: each file appears complete, and ranks write
+        the same.
+
+        Args:
+            folder: Made where it does not exist.
+
+        Raises:
+            OSError: It cannot be written.
+        """
+        from dolfinrod.output import write
+
+        write(self, Path(folder))
+
+    @classmethod
+    def load(cls, folder: str | Path, *, scene: Scene | None = None) -> Result:
+        """Read back what `write` left, to the same doubles; a later solve can `start` from it.
+
+        Args:
+            folder: Where it was written.
+            scene: What was solved, where a scene with functions could not be written; None: the scene of the folder.
+
+        Returns:
+            The result.
+
+        Raises:
+            SceneError: A file that is missing, damaged, foreign, or does not go with the others.
+        """
+        from dolfinrod.output import load
+
+        return load(Path(folder), scene=scene)
+
+    def plot(self, path: str | Path | None = None) -> Figure:
+        """Picture of the deformed rods, the resultants along them and the way of their tips, in axes with units.
+
+        Args:
+            path: Where to save it, in the format its ending names; None: nowhere.
+
+        Returns:
+            The figure, known to no window.
+        """
+        from dolfinrod.output.figures import plot
+
+        return plot(self, path)
 
 
 class NotConverged(RuntimeError):  # noqa: N818 (binding public name)

@@ -16,7 +16,15 @@ TEX = 1e-6  # kg/m: one gram per kilometre
 CN_PER_TEX = 1e4  # J/kg: a modulus per density; times a density it is a pressure
 
 # A decimal number, then a product of powers of units. Three digits of exponent: doubles need no more.
-QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*([\w\s*/^()°·-]*)")
+QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*([\w\s*/^()°·⁻-]*)")
+MOST_CHARACTERS = 100
+# What pint stumbles over shows as any of these: powers of zero, lone operators, logarithmic units.
+STUMBLES = (ArithmeticError, AttributeError, LookupError, SyntaxError, TypeError, ValueError)
+RAISED = re.compile("[⁻⁰¹²³⁴-⁹]+")
+PLAIN = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+# N**9**9**9, m**99999999 and 1e999999999 are numbers that no computer writes down: powers of numbers and of more than
+# two digits, powers that are products, and numbers with an exponent among the units.
+ENDLESS = re.compile(r"\d[\s)]*(?:\*\*|\^)|(?:\*\*|\^)[\s-]*(?:\((?!-?\d\))|\d{3})|(?<!\w)\d+[eE_]")
 
 
 class UnitError(ValueError):
@@ -39,14 +47,14 @@ def si(value: object, unit: str) -> float:
         UnitError: Not a quantity, an unknown unit, the wrong dimension, or beyond the range of a double.
     """
     if isinstance(value, Real) and not isinstance(value, bool):
-        return float(value)
-    quantity = _quantity(value, unit)
-    if not quantity.is_compatible_with(unit):
+        try:
+            return float(value)
+        except OverflowError:
+            raise UnitError(f"must be a quantity in {unit}, got a number beyond the range of a double") from None
+    magnitude = _converted(_quantity(value, unit), unit)
+    if magnitude is None:
         raise _not_in(unit, value)
-    try:
-        return float(quantity.m_as(unit))
-    except OverflowError:
-        raise _not_in(unit, value) from None
+    return magnitude
 
 
 def has_unit(value: object, unit: str) -> bool:
@@ -58,28 +66,41 @@ def has_unit(value: object, unit: str) -> bool:
 
     Returns:
         True where `si(value, unit)` would convert a text.
-
-    Raises:
-        UnitError: Text that is no quantity, or an unknown unit.
     """
-    return isinstance(value, str) and bool(_quantity(value, unit).is_compatible_with(unit))
+    try:
+        return isinstance(value, str) and _converted(_quantity(value, unit), unit) is not None
+    except UnitError:
+        return False
+
+
+def _converted(quantity: Any, unit: str) -> float | None:
+    """The magnitude in a unit; None where there is none, as for another dimension."""
+    import pint
+
+    try:
+        return float(quantity.m_as(unit)) if quantity.is_compatible_with(unit) else None
+    except (pint.PintError, *STUMBLES):
+        return None
 
 
 def _quantity(value: object, unit: str) -> Any:
     """The pint quantity a text names."""
-    read = QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    read = QUANTITY.fullmatch(value) if isinstance(value, str) and len(value) <= MOST_CHARACTERS else None
     if read is None:
         raise _not_in(unit, value)
     number, name = read.groups()
+    powers = RAISED.sub(lambda raised: f"**{raised[0].translate(PLAIN)}", name)
+    if ENDLESS.search(powers):
+        raise _not_in(unit, value)
     import pint
 
     registry = _registry()
     try:
         # Micro is written with either of two letters; pint knows one.
-        return registry.Quantity(Fraction(number), registry.parse_units(name.replace("μ", "µ")))
+        return registry.Quantity(Fraction(number), registry.parse_units(powers.replace("μ", "µ")))
     except pint.UndefinedUnitError:
         raise UnitError(f"must be a quantity in {unit}, got {value!r}: there is no unit {name.strip()!r}") from None
-    except (pint.PintError, TokenError, ValueError, TypeError):
+    except (pint.PintError, TokenError, *STUMBLES):
         raise _not_in(unit, value) from None
 
 

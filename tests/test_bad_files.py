@@ -11,6 +11,7 @@ from typing import NoReturn
 import pytest
 
 from dolfinrod import cli
+from dolfinrod.scene import source
 from tests.conftest import world
 
 MB = 1_000_000
@@ -49,12 +50,24 @@ CONTENTS = {
     "dotted header": (b"[" + b"a." * 100_000 + b"a]", "must not nest tables so deeply"),
     "one long word": (b'rods = "' + b"a" * MB + b'"', "rods must be a list of tables"),
     "many digits": (CLAMPED.replace(b"1.0", b"1" * 5000), "a scene must be a TOML file: Exceeds the limit"),
-    "long list": (b"rods = [" + b"1," * 100_000 + b"]", "rods[0] must be a table, got 1"),
+    "20000 rods": (
+        BARE + b'[[rods]]\nstraight = { length = 1 }\nsection = "a"\n' * 20_000,
+        "rods must be at most 10000",
+    ),
+    "20000 supports": (
+        BARE + b"[[supports]]\npin = { at = 0 }\n" * 20_000,
+        "supports must be at most 10000, got 20000",
+    ),
+    "20000 points": (
+        BARE + b'[[rods]]\nsection = "a"\nthrough = { points = [' + b"[0, 0, 1]," * 20_000 + b"] }",
+        "rods[1].through.points must be at most 10000, got 20000",
+    ),
+    "long list": (b"rods = [" + b"1," * 100_000 + b"]", "rods must be at most 10000, got 100000"),
     "duplicate key": (CLAMPED.replace(b"GJ = 1.0", b"GJ = 1.0\nGJ = 2.0"), "Cannot overwrite a value"),
     "duplicate section": (CLAMPED + b"[section.a]\nGJ = 2.0", "Cannot declare ('section', 'a') twice"),
     "duplicate list": (CLAMPED + b"[rods]\n", "a scene must be a TOML file"),
-    "escape sequence in a name": (b'"\\u001b[31m\\u202e" = 1\n' + CLAMPED, "\\x1b[31m\\u202e is not known here"),
-    "line break in a name": (b'"one\\ntwo\\r" = 1\n' + CLAMPED, "one two is not known here"),
+    "escape sequence in a name": (b'"\\u001b[31m\\u202e" = 1\n' + CLAMPED, "\\x1b[31m\\u202e is unknown"),
+    "line break in a name": (b'"one\\ntwo\\r" = 1\n' + CLAMPED, "one two is unknown"),
     "raw control character": (b"a\x1b = 1\n" + CLAMPED, "a scene must be a TOML file"),
     "lone surrogate": (b'"\\ud800" = 1\n' + CLAMPED, "not a Unicode scalar value"),
 }
@@ -120,6 +133,35 @@ def test_an_endless_device_is_refused(refused):
     assert "at most 4000000 bytes" in refused("/dev/zero")
 
 
+def test_a_device_without_content_is_an_empty_file(refused):
+    assert "rods must hold at least one rod, got none" in refused("/dev/null")
+
+
+def test_a_file_of_100_megabytes_is_refused_unread(refused, shared_path):
+    file = written(shared_path / "scene.toml", CLAMPED)
+    os.truncate(file, 100 * MB)
+    assert "at most 4000000 bytes" in refused(file)
+
+
+@pytest.mark.serial
+def test_a_pipe_that_nobody_writes_to_is_refused(refused, shared_path, monkeypatch):
+    monkeypatch.setattr(source, "PATIENCE", 0.1)
+    os.mkfifo(shared_path / "pipe.toml")
+    assert "nothing came out of this one for 0.1 s" in refused(shared_path / "pipe.toml")
+
+
+@pytest.mark.serial
+def test_a_pipe_that_is_written_to_is_a_file():
+    """As the shell makes one of `<(command)`."""
+    read_end, write_end = os.pipe()
+    os.write(write_end, CLAMPED)
+    os.close(write_end)
+    try:
+        assert cli.main(["info", f"/dev/fd/{read_end}"]) == 0
+    finally:
+        os.close(read_end)
+
+
 def test_a_file_without_permission_is_refused(refused, shared_path, monkeypatch):
     """Refused by the system, which lets root read whatever the mode says."""
 
@@ -127,7 +169,7 @@ def test_a_file_without_permission_is_refused(refused, shared_path, monkeypatch)
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
 
     file = written(shared_path / "scene.toml", CLAMPED)
-    monkeypatch.setattr(Path, "open", closed)
+    monkeypatch.setattr(source, "_at_once", closed)
     assert "cannot be read: Permission denied" in refused(file)
 
 

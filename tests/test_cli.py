@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import sys
 from dataclasses import dataclass, replace
-from types import ModuleType
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from dolfinrod import cli
 from dolfinrod.progress import ProgressLine
 from dolfinrod.scene import toml
 from tests.conftest import world
+from verification.progress import Progress
 
 CANTILEVER = """
 [section.strip]
@@ -209,15 +211,91 @@ def test_info_names_versions_and_what_the_scene_holds(dolfinrod, scene_file):
     assert "kinematics: planar, normal (0, 0, 1)" in done.out
 
 
-@pytest.mark.parametrize("flags", [[], ["--quick"]])
-def test_verify_hands_over_to_the_report(dolfinrod, monkeypatch, flags):
-    asked = []
-    report = ModuleType("verification.__main__")
-    report.main = lambda arguments: asked.append(arguments) or 0
-    monkeypatch.setitem(sys.modules, "verification", ModuleType("verification"))
-    monkeypatch.setitem(sys.modules, "verification.__main__", report)
-    assert dolfinrod("verify", *flags).code == 0
-    assert asked == [flags]
+@pytest.mark.serial
+def test_verify_reports_what_was_asked_for_and_goes_on_where_it_was(dolfinrod, tmp_path):
+    words = ("verify", "elastica-1", "--quick", "--out", tmp_path)
+    first, again = dolfinrod(*words), dolfinrod(*words)
+    assert (first.code, first.err) == (0, "")
+    assert first.out == f"{tmp_path / 'index.html'}\n" == again.out
+    assert "Elastica, PL²/EI = 1, inextensible" in (tmp_path / "index.html").read_text(encoding="utf-8")
+    units = len(list((tmp_path / "finished").glob("*/*.json")))
+    assert f"{units} of {units} results reused" in again.err
+    assert "reused" not in dolfinrod(*words, "--fresh").err
+
+
+@pytest.mark.serial
+def test_verify_lists_names_and_solves_nothing(dolfinrod, tmp_path):
+    done = dolfinrod("verify", "--list", "roll*", "--out", tmp_path / "out")
+    assert done.code == 0
+    family, *members = done.out.splitlines()
+    assert family.startswith("rollup: ")
+    assert all(line.startswith("  rollup-") for line in members)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.serial
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["elastika-10"], "no case or family is called elastika-10; did you mean elastica-10"),
+        (["--quik"], "--quik"),
+        (["--out", "/dev/null/out"], "--out /dev/null/out cannot be written"),
+    ],
+)
+def test_verify_refuses_in_one_line(dolfinrod, words, complaint):
+    done = dolfinrod("verify", *words)
+    assert (done.code, done.out) == (2, "")
+    assert done.err.count("\n") == 1
+    assert complaint in done.err
+
+
+@pytest.mark.serial
+def test_verify_interrupted_says_how_to_go_on(dolfinrod, tmp_path, monkeypatch):
+    from verification import suite
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(suite, "work_off", interrupted)
+    done = dolfinrod("verify", "elastica-1", "--out", tmp_path)
+    assert (done.code, done.out) == (130, "")
+    assert done.err.count("\n") == 1
+    assert "the same command goes on from there" in done.err
+
+
+@pytest.mark.serial
+def test_verify_measures_one_thread(monkeypatch):
+    began = []
+    monkeypatch.setattr(sys, "argv", ["dolfinrod", "verify", "rollup", "--quick"])
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    monkeypatch.setattr(os, "execv", lambda _, words: began.append((words[1:], os.environ["OMP_NUM_THREADS"])))
+    monkeypatch.setattr(cli, "verify", lambda _: 0)
+    cli.main()
+    assert began == [(["-m", "verification", "rollup", "--quick"], "1")]
+    cli.main()
+    assert len(began) == 1
+
+
+def test_verify_is_for_one_rank(dolfinrod, monkeypatch):
+    if world() is None or world().size == 1:
+        monkeypatch.setattr(cli, "_ranks", lambda: 2)
+    done = dolfinrod("verify", "--list")
+    assert done.code == 2
+    assert "verify measures one process" in done.err
+
+
+def test_progress_of_verify_tells_what_how_far_and_time_left(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    seconds = iter([0.0, 8.0])
+    terminal = Terminal()
+    line = Progress(terminal, 4, clock=lambda: next(seconds))
+    for done, recalled in enumerate([True, False, False]):
+        line(done, SimpleNamespace(words=f"unit {done}"), recalled)
+    line.clear()
+    _, *shown, last = terminal.getvalue().split("\r\033[K")
+    # One of the three was recalled, the other one solved by now took 8 s, two are left.
+    assert shown == ["1 of 4: unit 0", "2 of 4: unit 1", "3 of 4, about 16 s left: unit 2"]
+    assert (last, line.recalled) == ("", 1)
 
 
 class Terminal(io.StringIO):

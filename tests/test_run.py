@@ -21,6 +21,8 @@ PYTHON = """
 echo "$*" >>calls
 case $* in *numpy*) echo /usr/lib/python3/dist-packages/numpy/__init__.py ;; esac
 """
+# dpkg-query of a machine that has every package it is asked for.
+ALL_INSTALLED = 'for word; do echo " installed $word "; done'
 
 
 @dataclass
@@ -157,12 +159,24 @@ def test_failed_set_up_is_tried_again(machine):
     [
         (["report", "--quick"], "-m verification --quick"),
         (["test", "-k", "elastica"], "-m pytest -k elastica"),
+        (["report", "elastica*", "--out", "there"], "-m verification elastica* --out there"),
         (["test", "--all", "-x"], "-m pytest -m  -x"),
     ],
 )
 def test_commands_go_to_the_python_of_the_virtual_environment(machine, arguments, asked):
+    machine.fake("dpkg-query", ALL_INSTALLED)
     assert machine.run(*arguments).returncode == 0
     assert machine.calls[-1] == asked
+
+
+def test_a_browser_is_installed_for_all_tests_only(machine):
+    machine.fake("id", "echo 0")
+    machine.fake("apt-get", 'echo "$*" >>asked')
+    machine.fake("dpkg-query", 'for word; do case $word in chromium) ;; *) echo " installed $word " ;; esac; done')
+    assert machine.run("test").returncode == 0
+    assert not (machine.path / "asked").exists()
+    assert machine.run("test", "--all").returncode == 0
+    assert (machine.path / "asked").read_text().splitlines()[-1].split("300 ")[1] == "chromium"
 
 
 def test_mpi_starts_the_asked_number_of_ranks(machine):

@@ -1,17 +1,23 @@
 """What the two models are worth: errors against independent references, errors against time, each against the other.
 
-    python -m verification [--quick] [--out report]
+    dolfinrod verify [CASE ...] [--quick] [--out DIR]          the same: python -m verification
 
 `case`          a problem, what is read off, and its reference with provenance
-`cases`         elastica, follower force, heavy cantilever, roll-up, 45° bend, parabola
+`cases`         one file a family
+`statement`     a case in words
 `references`    the numbers and where they come from; closed forms
 `models`        adapters that solve a scene with either model
 `workprecision` the only clock
 `order`         observed orders
+`reach`         seconds to a given error
+`crosscheck`    both models against each other, no reference involved
+`laws`          what holds whatever the numbers are: `violations` of it, on `lawscenes`
 `onestep`       whole loads in one step: Newton iterations against limits
 `speed`         milliseconds against limits and against other people's solvers
-`crosscheck`    both models against each other, no reference involved
-`checks`        numbers that must hold
+`checks`        errors, orders and digits that must hold
+`shape`         what is drawn
+`plan`          all that is to be done, as units
+`ledger`        finished units on disk; `interrupt` and `progress` of a run
 `suite`         all of it, as one record
 `report`        the record as a page and as JSON
 

@@ -1,52 +1,138 @@
-"""`python -m verification`: solve, measure, report.
+"""`python -m verification`, the same as `dolfinrod verify`: solve, measure, report.
 
-Exit codes: 0 every error, order and iteration count is within its limit, 1 one is not; time never decides.
+Exit codes: 0 every number is within its limit, 1 one is not, 2 bad input, 130 interrupted; time never decides.
 """
 
 from __future__ import annotations
 
-import argparse
 import os
-import shutil
 import sys
-from collections.abc import Sequence
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-__all__ = ["main"]
+# NumPy must not be loaded here: `main` settles the number of its threads first.
+if TYPE_CHECKING:
+    from verification.suite import Missed
+
+__all__ = ["DESCRIPTION", "add_options", "main", "verify"]
+
+HOLDS, MISSED, INTERRUPTED = 0, 1, 130
+# Folder of finished work within that of the report.
+FINISHED = "finished"
+DESCRIPTION = (
+    "Solve the verification cases with both models: errors against references, against time, and against each other. "
+    "What is finished is kept below DIR, and the same command goes on where it was stopped."
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the verification and write the report.
+    """Run the command.
 
     Args:
-        arguments: Of the command line; None: the process's own.
+        arguments: Words after `python -m verification`; None: those of the process.
 
     Returns:
         Exit code.
     """
-    parser = argparse.ArgumentParser(prog="python -m verification", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="fewer meshes and repetitions")
-    parser.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="default: %(default)s")
-    options = parser.parse_args(arguments)
     # One thread, settled before NumPy loads: the systems are small, and times have to mean something.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
+    try:
+        from dolfinrod import cli
+
+        return cli.main(["verify", *(sys.argv[1:] if arguments is None else arguments)])
+    except KeyboardInterrupt:
+        say("interrupted before anything was solved")
+        return INTERRUPTED
+
+
+def add_options(parser: ArgumentParser) -> None:
+    """Give a parser the options of the command."""
+    parser.add_argument("names", nargs="*", metavar="CASE", help="cases or families, wildcards allowed; none: all")
+    parser.add_argument("--quick", action="store_true", help="fewer meshes, degrees and repetitions")
+    parser.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="default: %(default)s")
+    parser.add_argument("--fresh", action="store_true", help="do again what an earlier run has finished")
+    parser.add_argument("--list", action="store_true", help="names and titles, nothing is solved")
+
+
+def verify(options: Namespace) -> int:
+    """Solve, measure, report.
+
+    Args:
+        options: As `add_options` describes them.
+
+    Returns:
+        Exit code.
+
+    Raises:
+        SceneError: A name that stands for nothing, or several ranks.
+    """
+    return listed(options) if options.list else reported(options)
+
+
+def listed(options: Namespace) -> int:
+    """Print the cases by family."""
+    from verification.cases import CASES
+    from verification.plan import LAWS, families, selected
+    from verification.statement import family_title
+
+    names = set(selected(options.names))
+    for family in families():
+        members = [case for case in CASES if case.family == family and {family, case.name} & names]
+        if members:
+            print(f"{family}: {family_title(family)}")
+        for case in members:
+            print(f"  {case.name:<34}{case.title}")
+    if LAWS in names:
+        print(f"{LAWS}: what holds whatever the numbers are")
+    return HOLDS
+
+
+def reported(options: Namespace) -> int:
+    """Do what is not yet done, write the page and print its path."""
+    from verification.interrupt import Interrupt
+    from verification.ledger import Ledger
+    from verification.machine import this_machine
+    from verification.plan import plan, selected
+    from verification.progress import Progress
     from verification.report import write
-    from verification.suite import run
+    from verification.suite import report, work_off
 
-    report = run(quick=options.quick, note=note)
-    page = write(report, options.out)
-    note("")
-    for row in report.missed:
-        print(f"missed: {row}", file=sys.stderr)
+    names = selected(options.names)
+    machine = this_machine()
+    units = plan(names, quick=options.quick)
+    folder = options.out / FINISHED
+    progress = Progress(sys.stderr, len(units))
+    try:
+        with Interrupt() as interrupt:
+            rows = work_off(units, Ledger(folder, machine, fresh=options.fresh), progress, interrupt)
+    except KeyboardInterrupt:
+        progress.clear()
+        finished = f"{progress.done} of {len(units)} finished and kept in {folder}{os.sep}"
+        say(f"interrupted: {finished}; the same command goes on from there")
+        return INTERRUPTED
+    progress.clear()
+    if progress.recalled:
+        say(f"{progress.recalled} of {len(units)} results reused from {folder}{os.sep} (--fresh solves all again)")
+    found = report(rows, names, machine, quick=options.quick)
+    page = write(found, options.out)
+    complain(found.missed)
     print(page.resolve())
-    return 1 if report.missed else 0
+    return MISSED if found.missed else HOLDS
 
 
-def note(text: str) -> None:
-    """One line of a terminal, rewritten; nothing where no terminal is."""
-    if sys.stderr.isatty():
-        width = shutil.get_terminal_size().columns - 1
-        print(f"\r\033[K{text[:width]}", end="", file=sys.stderr, flush=True)
+def complain(missed: Iterable[Missed]) -> None:
+    """One line for every number beyond its limit."""
+    from verification.report.misses import sentence
+
+    for row in missed:
+        print(f"missed: {sentence(row)}", file=sys.stderr)
+
+
+def say(text: str) -> None:
+    """One line that is no result."""
+    print(f"verification: {text}", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -70,7 +70,7 @@ class Case:
     Args:
         name: Short, unique, fit for a file name.
         title: For people.
-        family: "elastica", "follower", "heavy", "rollup", "bend45" or "parabola".
+        family: Of which it is one, such as "elastica"; its file in verification/cases.
         scene: The problem in a pose.
         reference: What the quantity should be.
         length: By which errors are divided [m].
@@ -80,6 +80,7 @@ class Case:
         quantity: What is read off a result, shape (3,) [m].
         quantity_name: In words.
         centreline: Exact centreline at arc lengths (n,), shape (n, 3), where a closed form is known [m].
+        note: One sentence where a model deviates from theory: what is seen and why.
     """
 
     name: str
@@ -94,6 +95,7 @@ class Case:
     quantity: Callable[[Result], Array] = tip
     quantity_name: str = "tip position"
     centreline: Callable[[Array], Array] | None = field(default=None, repr=False)
+    note: str = ""
 
     def error(self, result: Result, pose: Pose = UPRIGHT) -> float:
         """|quantity − reference| / length.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
+import numpy as np
+
 from dolfinrod.scene import Planar, Spatial
 
 if TYPE_CHECKING:
@@ -12,7 +14,9 @@ if TYPE_CHECKING:
     from dolfinrod.scene import Scene
     from verification.case import Case
 
-__all__ = ["Continuum", "Discrete", "Model"]
+__all__ = ["BOTH", "Continuum", "Discrete", "Model", "elongation", "natural"]
+
+BOTH = (Planar(), Spatial())
 
 
 class Model(Protocol):
@@ -20,6 +24,7 @@ class Model(Protocol):
 
     Attributes:
         family: "continuum" or "discrete".
+        kinematics_name: "planar" or "spatial".
         degree: Of the centreline on an element.
         tip_order: Power of the element length with which the tip converges, by theory.
         centreline_order: The same of the centreline in L2.
@@ -31,6 +36,9 @@ class Model(Protocol):
 
     @property
     def family(self) -> str: ...  # noqa: D102 (above)
+
+    @property
+    def kinematics_name(self) -> str: ...  # noqa: D102
 
     @property
     def degree(self) -> int: ...  # noqa: D102
@@ -107,6 +115,11 @@ class Discrete:
     centreline_order: int = field(default=2, init=False)
 
     @property
+    def kinematics_name(self) -> str:
+        """Always in space."""
+        return "spatial"
+
+    @property
     def name(self) -> str:
         """Such as "discrete chord"."""
         return f"discrete {self.axial}"
@@ -120,3 +133,30 @@ class Discrete:
         from discrete import solve
 
         return solve(scene, elements=elements, axial=self.axial)
+
+
+def natural(case: Case) -> Planar | Spatial:
+    """The smaller kinematics that holds a case."""
+    return Planar() if case.planar else Spatial()
+
+
+def elongation(result: Result) -> float:
+    """By how much the rods grow longer that should not: the discrete model lends them EA = 1e8 EI/L².
+
+    Args:
+        result: Of either model.
+
+    Returns:
+        Σ max|n₁| ℓ/EA over the rods of length ℓ that are rigid in extension, 0 for the continuum model [m].
+    """
+    if result.formulation.model != "discrete":
+        return 0.0
+    from discrete.mesh import RIGID_EXTENSION
+
+    rods = result.scene.rods
+    EA = RIGID_EXTENSION * max(max(rod.section.EI) for rod in rods) / max(rod.length for rod in rods) ** 2
+    return sum(
+        float(np.abs(history.n[-1, :, 0]).max()) * rod.length / EA
+        for rod, history in zip(rods, result.rods, strict=True)
+        if "extension" in rod.section.rigid
+    )

@@ -5,18 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from dolfinrod.scene import Planar, Spatial
 from verification.case import SKEW
 from verification.cases import bend45, elastica, follower, rollup
-from verification.models import Continuum
+from verification.models import BOTH, Continuum
 from verification.workprecision import measure
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from verification.case import Case
 
-__all__ = ["OneStep", "one_step"]
+__all__ = ["OneStep", "one_step", "problems"]
 
 
 @dataclass(frozen=True)
@@ -24,6 +21,7 @@ class OneStep:
     """A load taken at once.
 
     Args:
+        case: Its name.
         title: What is loaded, and how much.
         kinematics: "planar" or "spatial"; planar problems lie in a skew plane for both.
         mesh: Such as "8 × P3".
@@ -34,6 +32,7 @@ class OneStep:
         failure: Why it did not converge.
     """
 
+    case: str
     title: str
     kinematics: str
     mesh: str
@@ -68,33 +67,33 @@ def problems() -> tuple[tuple[Case, int, int], ...]:
     )
 
 
-def one_step(note: Callable[[str], None] = lambda _: None) -> tuple[OneStep, ...]:
-    """Every problem, with every kinematics that holds it.
+def one_step(case: Case, elements: int, limit: int) -> tuple[OneStep, ...]:
+    """The whole load at once, with every kinematics that holds the case.
 
     Args:
-        note: Told what is being solved.
+        case: What is loaded.
+        elements: Of degree 3.
+        limit: Most Newton iterations.
 
     Returns:
         One row a solve.
     """
     rows = []
-    for case, elements, limit in problems():
-        for kinematics in (Planar(), Spatial()):
-            model = Continuum(3, kinematics)
-            if not model.applies_to(case):
-                continue
-            note(f"one load step: {case.title}")
-            record = measure(case, model, elements, pose=SKEW)
-            rows.append(
-                OneStep(
-                    title=case.title,
-                    kinematics=model.kinematics_name,
-                    mesh=f"{elements} × P3",
-                    iterations=record.iterations,
-                    limit=limit,
-                    steps=record.steps,
-                    error=record.error,
-                    failure=record.failure,
-                )
+    for model in (Continuum(3, kinematics) for kinematics in BOTH):
+        if not model.applies_to(case):
+            continue
+        record = measure(case, model, elements, pose=SKEW)
+        rows.append(
+            OneStep(
+                case=case.name,
+                title=case.title,
+                kinematics=model.kinematics_name,
+                mesh=f"{elements} × P3",
+                iterations=record.iterations,
+                limit=limit,
+                steps=record.steps,
+                error=record.error,
+                failure=record.failure,
             )
+        )
     return tuple(rows)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,12 +13,11 @@ from verification.references import Peer, peers
 from verification.workprecision import Record, measure
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from verification.case import Case
-    from verification.models import Model
 
-__all__ = ["Speed", "speeds"]
+__all__ = ["SPEEDS", "Speed"]
+
+TEN, SHEAR_RIGID, BEND = elastica.slender(10.0, 200.0), elastica.shear_rigid(10.0, 200.0), bend45.bend(600.0)
 
 # Meshes that may bring the bend to 1e-8, elements and degree; the quickest that does is shown.
 BEND_MESHES = ((10, 3), (4, 4), (5, 4), (3, 5), (4, 5))
@@ -48,46 +48,34 @@ class Speed:
         return self.record.timing is not None and self.record.timing.solve_min <= self.limit
 
 
-def speeds(repeats: int, note: Callable[[str], None] = lambda _: None) -> tuple[Speed, ...]:
-    """The four figures of the issue.
-
-    Args:
-        repeats: Timed calls of each.
-        note: Told what is being timed.
-
-    Returns:
-        Slender elastica in space and in the plane, 45° bend to 1e-8, 80 discrete elements.
-    """
-    ten = elastica.slender(10.0, 200.0)
-    published = peers("elastica")
-    rows = []
-    for kinematics, limit in ((Spatial(), 8.0), (Planar(), 4.0)):
-        model = Continuum(3, kinematics)
-        note(f"speed: {model.name}")
-        same = tuple(p for p in published if p.kinematics == model.kinematics_name)
-        record = measure(ten, model, 8, repeats=repeats)
-        rows.append(Speed("PL²/EI = 10, L/d = 200", f"{model.kinematics_name} 8 × P3", record, limit, same))
-    note("speed: 45° bend to 1e-8")
-    rows.append(quickest_bend(repeats))
-    note("speed: 80 discrete elements")
-    rows.append(discrete_cantilever(repeats))
-    return tuple(rows)
+def slender(kinematics: Planar | Spatial, limit: float, repeats: int) -> Speed:
+    """The elastica PL²/EI = 10 at L/d = 200 on 8 cubic elements."""
+    model = Continuum(3, kinematics)
+    record = measure(TEN, model, 8, repeats=repeats)
+    same = tuple(p for p in peers("elastica") if p.kinematics == model.kinematics_name)
+    return Speed("PL²/EI = 10, L/d = 200", f"{model.kinematics_name} 8 × P3", record, limit, same)
 
 
 def quickest_bend(repeats: int) -> Speed:
     """The 45° bend on the mesh that reaches 1e-8 soonest."""
-    case = bend45.bend(600.0)
-    tried = [(measure(case, Continuum(k), n, repeats=repeats), f"spatial {n} × P{k}") for n, k in BEND_MESHES]
+    tried = [(measure(BEND, Continuum(k), n, repeats=repeats), f"spatial {n} × P{k}") for n, k in BEND_MESHES]
     record, mesh = min(tried, key=lambda pair: (not pair[0].error <= BEND_ERROR, solve_ms(pair[0])))
     return Speed("45° bend, 600, to 10⁻⁸", mesh, record, 12.0, peers("bend"))
 
 
 def discrete_cantilever(repeats: int) -> Speed:
     """80 discrete elements at L/d = 200, shear-rigid, held against its own reference."""
-    case: Case = elastica.shear_rigid(10.0, 200.0)
-    model: Model = Discrete()
-    record = measure(case, model, 80, repeats=repeats)
+    record = measure(SHEAR_RIGID, Discrete(), 80, repeats=repeats)
     return Speed("PL²/EI = 10, L/d = 200, no shear", "discrete chord, 80", record, 15.0)
+
+
+# What is timed: the case, what it is called, and the measurement for a number of repeats.
+SPEEDS: tuple[tuple[Case, str, Callable[[int], Speed]], ...] = (
+    (TEN, "in space", lambda repeats: slender(Spatial(), 8.0, repeats)),
+    (TEN, "in the plane", lambda repeats: slender(Planar(), 4.0, repeats)),
+    (BEND, "to 1e-8", quickest_bend),
+    (SHEAR_RIGID, "80 discrete elements", discrete_cantilever),
+)
 
 
 def solve_ms(record: Record) -> float:

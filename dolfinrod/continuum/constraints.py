@@ -36,6 +36,10 @@ class Constraints:
         kinematics: Dimension.
         placement: Working units.
         locate: Dofs of the node at (rod, s) on this rank, or None.
+
+    Attributes:
+        dofs: Held dofs.
+        places: Rod and dofs of every supported node on this rank.
     """
 
     def __init__(self, scene: Scene, kinematics: Kinematics, placement: Placement, locate: Locate) -> None:
@@ -45,11 +49,13 @@ class Constraints:
         for support in scene.supports:
             for rod, s in scene.location(support.at, support.rod):
                 places.setdefault((rod, s), []).append(support)
-        self._nodes = [
-            (node, scene.rods[rod].centerline(np.array([s]))[0], supports)
+        here = [
+            (rod, node, scene.rods[rod].centerline(np.array([s]))[0], supports)
             for (rod, s), supports in places.items()
             if (node := locate(rod, s)) is not None
         ]
+        self.places = [(rod, node) for rod, node, _, _ in here]
+        self._nodes = [(node, x_0, supports) for _, node, x_0, supports in here]
         self._turning = [
             (s.history, float(np.linalg.norm(np.asarray(s.rotation))))
             for s in scene.supports

@@ -104,6 +104,10 @@ class Kinematics(Protocol):
         """∂δθ/∂δq in the turned frame, linear in q."""
         ...
 
+    def rigid_motions(self, r: Array, q: Array) -> Array:
+        """How a node (r, q) moves with its rod: along each working direction, then about each spin axis."""
+        ...
+
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames in space of turned stress-free frames."""
         ...

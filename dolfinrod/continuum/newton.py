@@ -131,7 +131,7 @@ class Newton:
             self.close()
             self._open()
             return Outcome(False, iterations, np.nan, REASONS[SINGULAR])
-        self._take(self._X)
+        # The last residual was that of the solution, and left the problem there with multipliers in balance.
         words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
         return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words)
 

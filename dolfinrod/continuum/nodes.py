@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,25 +13,7 @@ if TYPE_CHECKING:
 
     from dolfinrod.scene import Scene
 
-__all__ = ["element_counts", "element_ends"]
-
-
-def element_counts(scene: Scene, elements: int | Sequence[int]) -> tuple[int, ...]:
-    """One number of elements a rod.
-
-    Raises:
-        SceneError: Not a positive whole number for every rod.
-    """
-    if isinstance(elements, Sequence) and not isinstance(elements, str):
-        counts = list(elements)
-    else:
-        counts = [elements] * len(scene.rods)
-    if len(counts) != len(scene.rods):
-        raise SceneError(f"elements must be one number or one for each of the {len(scene.rods)} rods, got {elements}")
-    for n in counts:
-        if not isinstance(n, int | np.integer) or isinstance(n, bool) or n < 1:
-            raise SceneError(f"elements must be a positive whole number, got {n!r}")
-    return tuple(map(int, counts))
+__all__ = ["element_ends"]
 
 
 def element_ends(scene: Scene, rod: int, n: int) -> NDArray[np.float64]:

@@ -81,6 +81,12 @@ class PlanarRods:
         """The same in the turned frame, (n, 1, 1)."""
         return np.ones((len(q), 1, 1))
 
+    def rigid_motions(self, r: Array, q: Array) -> Array:
+        """(e_i, 0), then (e_z × r, 1), shape (3, 3)."""
+        moved = np.eye(3)
+        moved[2, :2] = -r[1], r[0]
+        return moved
+
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames R(φ) R₀ in space, shapes (t, s, 1), (3, 1), (s, 3, 3) → (t, s, 3, 3)."""
         p = quaternion.exponential(q * spin_axes[:, 0])

@@ -41,6 +41,7 @@ class Problem:
         s: Arc length of the nodes of every local cell, in L, shape (cells, k + 1).
         rod: Rod of every local cell.
         R_0: Stress-free frames at those nodes, shape (cells, k + 1, 3, 3).
+        held_force: Residual on this rank at the dofs given to `hold`.
         terms: Names of all that acts.
     """
 
@@ -50,12 +51,8 @@ class Problem:
         self._cut_rods()
         self._set_values()
         self.constraints = Constraints(scene, self.kinematics, placement, self.locate)
-        self._excluded = np.zeros(len(self.x), dtype=bool)
-        self._excluded[self.constraints.dofs] = True
         self._lump()
-        self._mask = backend.held_dofs(discretization.x, self.constraints.dofs)
-        owned = self.constraints.dofs < discretization.n_owned
-        self._held = self.constraints.dofs[owned]
+        self.hold(np.zeros(0, dtype=np.int32))
         self._point_terms = point_terms(scene, self.kinematics, placement, self._locate_owned)
         self._line_loads = list(zip(self._line_histories, discretization.line_loads(self._line_fields), strict=True))
         self.terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads))
@@ -125,6 +122,17 @@ class Problem:
         node = self.locate(rod, s)
         return node if node is not None and node["r"][0] < self.discretization.n_owned else None
 
+    def hold(self, dofs: NDArray[np.int32]) -> None:
+        """Hold these dofs where they are, on top of the supports, until the next call."""
+        n_owned = self.discretization.n_owned
+        held = np.union1d(self.constraints.dofs, dofs).astype(np.int32)
+        self._excluded = np.zeros(len(self.x), dtype=bool)
+        self._excluded[held] = True
+        self._mask = backend.held_dofs(self.discretization.x, held)
+        self._held = held[held < n_owned]
+        self._extra = dofs[dofs < n_owned]
+        self.held_force = np.zeros(0)
+
     def advance_to(self, t: float) -> None:
         """Put supports and loads at pseudo-time t; the rest of the state stays."""
         self.t = t
@@ -169,7 +177,8 @@ class Problem:
         self._lumped = b[self._unit[1]]
 
     def clear_held(self, b: NDArray[np.float64]) -> None:
-        """Zero the rows of held dofs: the state meets them already."""
+        """Zero the rows of held dofs, which the state meets already; what the ones of `hold` need is kept."""
+        self.held_force = b[self._extra]
         b[self._held] = 0.0
 
     def assemble_tangent(self, A: PETSc.Mat) -> None:

@@ -9,8 +9,8 @@ from mpi4py import MPI
 
 import numpy as np
 
+from dolfinrod.continuum.neutral import PhaseCondition
 from dolfinrod.continuum.newton import Newton
-from dolfinrod.continuum.nodes import element_counts
 from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
@@ -20,8 +20,10 @@ from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stepping import Path, StepFailed, walk
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import Planar, SceneError, Spatial
+from dolfinrod.scene.door import admit
 from dolfinrod.scene.kinematics import detect, obstacle
 from dolfinrod.scene.mechanism import advice
+from dolfinrod.scene.options import element_counts
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -49,10 +51,11 @@ def solve(
 ) -> Result:
     """Equilibrium of geometrically exact rods (Simo-Reissner, Kirchhoff in the limit); see `dolfinrod.solve`."""
     comm = MPI.COMM_WORLD if comm is None else comm
+    admit(scene, start, Result)
     if not isinstance(degree, int | np.integer) or isinstance(degree, bool) or degree not in DEGREES:
         raise SceneError(f"degree must be 1, 2, 3, 4 or 5, got {degree!r}")
     chosen = choose(scene, kinematics)
-    counts = element_counts(scene, elements)
+    counts = element_counts(elements, len(scene.rods))
     result, failure = _path(scene, chosen, comm, degree, counts, progress, start)
     if failure is not None:
         words = advice(scene)
@@ -74,11 +77,11 @@ def _path(
     rods: Kinematics = PlanarRods() if isinstance(kinematics, Planar) else SpatialRods()
     with borrowed(comm, rods, degree, counts) as (discretization, is_new):
         problem = Problem(scene, discretization, Placement.of(scene, kinematics))
-        newton, readout = Newton(problem), Readout(problem)
+        newton, phase, readout = Newton(problem), PhaseCondition(problem), Readout(problem)
         path = _begin(scene, readout, start)
         compiling = discretization.seconds_compile if is_new else 0.0
         ready = time.perf_counter()
-        failure = _walk(newton, readout, path, progress)
+        failure = _walk(newton, phase, readout, path, progress)
         statistics = Statistics(
             dofs=discretization.n_dofs,
             load_steps=len(path.log),
@@ -88,13 +91,15 @@ def _path(
             seconds_setup=ready - started - compiling,
             seconds_solve=time.perf_counter() - ready,
         )
-        return _result(problem, readout, path, statistics, converged=failure is None), failure
+        return _result(problem, phase, readout, path, statistics, converged=failure is None), failure
 
 
-def _walk(newton: Newton, readout: Readout, path: Path, progress: Progress | None) -> StepFailed | None:
+def _walk(
+    newton: Newton, phase: PhaseCondition, readout: Readout, path: Path, progress: Progress | None
+) -> StepFailed | None:
     """Step to the end; what stopped it, or None."""
     try:
-        walk(newton, readout, path, progress)
+        walk(newton, phase, readout, path, progress)
     except StepFailed as failure:
         return failure
     except KeyboardInterrupt:
@@ -141,7 +146,9 @@ def _begin(scene: Scene, readout: Readout, start: Result | None) -> Path:
     return Path(t=[t], states=[readout.state()], energy=[readout.energy()])
 
 
-def _result(problem: Problem, readout: Readout, path: Path, statistics: Statistics, *, converged: bool) -> Result:
+def _result(
+    problem: Problem, phase: PhaseCondition, readout: Readout, path: Path, statistics: Statistics, *, converged: bool
+) -> Result:
     d = problem.discretization
     unknowns = {field: int(np.prod(path.states[0][field].shape)) for field in d.kinematics.fields}
     for field in set(unknowns) - {"N", "m"}:
@@ -155,6 +162,6 @@ def _result(problem: Problem, readout: Readout, path: Path, statistics: Statisti
         log=tuple(path.log),
         energy={"strain": np.array(path.energy)},
         statistics=statistics,
-        formulation=Formulation("continuum", d.kinematics.name, unknowns, problem.terms),
+        formulation=Formulation("continuum", d.kinematics.name, unknowns, problem.terms, phase.notes),
         state=path.states[-1],
     )

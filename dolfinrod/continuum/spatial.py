@@ -95,6 +95,13 @@ class SpatialRods:
         """Spin in the turned frame, 2 Im(p̄ δp), linear in p, (n, 3, 4)."""
         return 2.0 * quaternion.right(q)
 
+    def rigid_motions(self, r: Array, q: Array) -> Array:
+        """(e_i, 0), then (e_i × r, ½ e_i p), shape (6, 7)."""
+        moved = np.eye(6, 7)
+        moved[3:, :3] = np.cross(np.eye(3), r)
+        moved[3:, 3:] = 0.25 * self.spin(q[None])[0]
+        return moved
+
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames R(p) R₀ in space, shapes (t, s, 4), (3, 3), (s, 3, 3) → (t, s, 3, 3)."""
         columns = [quaternion.rotate(q, frames[None, :, :, j] + 0.0 * q[..., :1]) for j in range(3)]

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.continuum.neutral import equilibrium
 from dolfinrod.result import StepLog
 from dolfinrod.scene.history import kinks
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from dolfinrod.continuum.neutral import PhaseCondition
     from dolfinrod.continuum.newton import Newton, Outcome
     from dolfinrod.continuum.readout import Readout, State
     from dolfinrod.scene import Scene
@@ -60,7 +62,13 @@ def targets(scene: Scene, t_0: float) -> list[float]:
     return sorted({float(t) for t in (*even, *corners) if t_0 < t <= motion.t_end})
 
 
-def walk(newton: Newton, readout: Readout, path: Path, progress: Callable[[StepLog, float], None] | None) -> None:
+def walk(
+    newton: Newton,
+    phase: PhaseCondition,
+    readout: Readout,
+    path: Path,
+    progress: Callable[[StepLog, float], None] | None,
+) -> None:
     """Go from the last state in `path` to the end, adding every accepted state.
 
     Raises:
@@ -77,7 +85,7 @@ def walk(newton: Newton, readout: Readout, path: Path, progress: Callable[[StepL
                 trial /= 2
             t_next = target if trial >= target - t else t + trial
             problem.advance_to(t_next)
-            outcome = newton.solve()
+            outcome = equilibrium(newton, phase)
             path.iterations += outcome.iterations
             if outcome.converged:
                 t = t_next
@@ -89,7 +97,7 @@ def walk(newton: Newton, readout: Readout, path: Path, progress: Callable[[StepL
                 cuts += 1
                 readout.restore(path.states[-1])
                 step = trial / 2
-                if step < smallest:
+                if step <= smallest:
                     raise StepFailed(t=t, step=trial, reason=outcome.reason)
 
 

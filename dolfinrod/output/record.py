@@ -1,24 +1,30 @@
-"""A result as plain files: one JSON for the record, one CSV a rod for the arrays."""
+"""A result as files: tables, a series for ParaView, the scene, and the record that names them all."""
 
 from __future__ import annotations
 
 import json
 import platform
+import re
 from dataclasses import asdict
 from importlib import metadata
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
+from dolfinrod.output.arrays import write_arrays
+from dolfinrod.output.table import write_table
+from dolfinrod.output.vtk import write_series
+from dolfinrod.scene import SceneError, toml
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from dolfinrod.result import NotConverged, Result
 
-    from numpy.typing import NDArray
+__all__ = ["FORMAT", "RECORD", "SCENE", "STATE", "rod_table", "versions", "write"]
 
-    from dolfinrod.result import NotConverged, Result, RodHistory
-
-__all__ = ["versions", "write"]
-
+FORMAT = "dolfinrod result 1"
+RECORD, SCENE, STATE = "result.json", "scene.toml", "state.npz"
+# Names that a result gives to files, and so may take away again.
+OURS = re.compile(r"rod-\d+\.csv|rods-\d+\.vtu|rods\.pvd|scene\.toml|state\.npz")
 PACKAGES = (
     "dolfinrod",
     "numpy",
@@ -30,23 +36,18 @@ PACKAGES = (
     "petsc4py",
     "mpi4py",
     "pint",
-)
-COLUMNS = (
-    "t",
-    "s [m]",
-    *(f"{axis} [m]" for axis in "xyz"),
-    *(f"d{i}{axis}" for i in (1, 2, 3) for axis in "xyz"),
-    *(f"gamma{i}" for i in (1, 2, 3)),
-    *(f"kappa{i} [1/m]" for i in (1, 2, 3)),
-    *(f"n{i} [N]" for i in (1, 2, 3)),
-    *(f"m{i} [N m]" for i in (1, 2, 3)),
+    "meshio",
+    "matplotlib",
 )
 
 
 def write(result: Result, folder: Path, *, failure: NotConverged | None = None) -> None:
-    """Leave a result in a folder: `result.json` and `rod-0.csv`, `rod-1.csv`, …, replacing files of these names.
+    """Leave a result in a folder, replacing what an earlier result left there.
 
-    Every number is written with the digits that read back to the same double.
+    `result.json` is the record, `rod-0.csv`, … the arrays along the rods, `rods.pvd` with `rods-0000.vtu`, … the same
+    for ParaView, `scene.toml` the scene where a file can hold it, `state.npz` what a later solve can go on from. Every
+    number is written with the digits that read back to the same double. Each file appears complete, the record last,
+    so that several ranks may write the same result at the same time.
 
     Args:
         result: What was found.
@@ -54,11 +55,25 @@ def write(result: Result, folder: Path, *, failure: NotConverged | None = None) 
         failure: Why the end was not reached.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    for k, rod in enumerate(result.rods):
-        header = ",".join(COLUMNS)
-        np.savetxt(folder / f"rod-{k}.csv", _table(result.t, rod), "%.17g", ",", header=header, comments="")
-    text = json.dumps(_record(result, failure), indent=2, ensure_ascii=False)
-    (folder / "result.json").write_text(text + "\n", encoding="utf-8")
+    with TemporaryDirectory(prefix=".result-", dir=folder) as name:
+        draft = Path(name)
+        record = _record(result, failure) | _write_scene(result, draft)
+        for k, rod in enumerate(result.rods):
+            write_table(draft / rod_table(k), result.t, rod)
+        write_series(result, draft)
+        write_arrays(draft / STATE, result.state)
+        made = sorted(path.name for path in draft.iterdir())
+        text = json.dumps(record | {"files": made}, indent=2, ensure_ascii=False)
+        (draft / RECORD).write_text(text + "\n", encoding="utf-8")
+        for former in _files_of(folder / RECORD) - set(made):
+            (folder / former).unlink(missing_ok=True)
+        for file in (*made, RECORD):
+            (draft / file).replace(folder / file)
+
+
+def rod_table(k: int) -> str:
+    """File name of the table of rod k."""
+    return f"rod-{k}.csv"
 
 
 def versions() -> dict[str, str]:
@@ -72,18 +87,29 @@ def versions() -> dict[str, str]:
     return found
 
 
-def _table(t: NDArray[np.float64], rod: RodHistory) -> NDArray[np.float64]:
-    """One row a stored time and node, in the order of `COLUMNS`; directors one after the other."""
-    n_t, n_s = len(t), len(rod.s)
-    directors = np.swapaxes(rod.frames, -1, -2).reshape(n_t, n_s, 9)
-    times, places = np.broadcast_arrays(t[:, None, None], rod.s[None, :, None])
-    parts = (times, places, rod.r, directors, rod.gamma, rod.kappa, rod.n, rod.m)
-    return np.concatenate(parts, axis=2).reshape(n_t * n_s, len(COLUMNS))
+def _write_scene(result: Result, folder: Path) -> dict[str, Any]:
+    """Write the scene where TOML can hold it; what the record says of it."""
+    try:
+        text = toml.dumps(result.scene)
+    except SceneError as error:
+        return {"scene": None, "scene_not_written": str(error)}
+    (folder / SCENE).write_text(text, encoding="utf-8")
+    return {"scene": SCENE}
+
+
+def _files_of(record: Path) -> set[str]:
+    """Files that an earlier result left in a folder, none where its record cannot be read."""
+    try:
+        files = json.loads(record.read_text(encoding="utf-8"))["files"]
+        return {name for name in files if OURS.fullmatch(name)}
+    except (OSError, ValueError, RecursionError, LookupError, TypeError):
+        return set()
 
 
 def _record(result: Result, failure: NotConverged | None) -> dict[str, Any]:
     """Everything of a result but the arrays along the rods."""
     record = {
+        "format": FORMAT,
         "converged": result.converged,
         "tip": result.tip.tolist(),
         "t": result.t.tolist(),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["SceneError"]
+__all__ = ["SceneError", "quoted"]
 
 MOST_CHARACTERS = 1000
 
@@ -35,6 +35,21 @@ class SceneError(ValueError):
         """
         _, dot, rest = self.field.partition(".")
         return SceneError(self.message, field=path + dot + rest)
+
+
+def quoted(value: object) -> str:
+    """A value as it is quoted in a complaint.
+
+    Args:
+        value: Whatever was given.
+
+    Returns:
+        As Python writes it, but for whole numbers of thousands of digits, which Python refuses to write.
+    """
+    try:
+        return repr(value)
+    except ValueError:
+        return "more digits than can be written"
 
 
 def _short(text: str) -> str:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from difflib import get_close_matches
 from inspect import Parameter, signature
 from typing import Any, Protocol, TypeGuard
 
@@ -13,11 +13,10 @@ from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.history import Steady
 from dolfinrod.units import UnitError, has_unit, si
 
-__all__ = ["At", "Field", "Growth", "Kind", "Modulus", "Plain", "Quantity", "Specific", "refuse_unknown"]
+__all__ = ["At", "Field", "Growth", "Kind", "Modulus", "Plain", "Quantity", "Specific", "meant", "refuse_unknown"]
 
+# No name of a field is longer.
 MOST_CHARACTERS = 100
-# 9**9**9 and N**9**9**9 are numbers that no computer writes down.
-POWER_OF_NUMBER = re.compile(r"\d[\s)]*(?:\*\*|\^)")
 
 
 class Field(Protocol):
@@ -65,7 +64,7 @@ class Quantity:
             return None
         if _is_number(value):
             return value
-        with _readable(value, self.unit, path):
+        with _readable(path):
             return si(value, self.unit)
 
     def write(self, value: Any, path: str) -> Any:
@@ -90,7 +89,7 @@ class Modulus:
         """Pascals, or `Specific` where the unit says so."""
         if _is_number(value):
             return value
-        with _readable(value, "Pa", path):
+        with _readable(path):
             if has_unit(value, "N/tex"):
                 return Specific(si(value, "m**2/s**2"))
             return si(value, "Pa")
@@ -197,7 +196,15 @@ def refuse_unknown(table: Mapping[str, Any], known: Collection[str], path: str) 
     for name in table:
         if name not in known:
             place = f"{path}.{name}" if name else f'{path}.""'
-            raise SceneError(f"is not known here; known are {', '.join(known)}", field=place.lstrip("."))
+            message = f"is unknown; known are {', '.join(known)}{meant(name, known)}"
+            raise SceneError(message, field=place.lstrip("."))
+
+
+def meant(word: str, known: Iterable[str]) -> str:
+    """A question that names the known word closest to one that is not; empty where none is close."""
+    spelt = {name.lower(): name for name in known}
+    close = get_close_matches(word[:MOST_CHARACTERS].lower(), spelt, n=1)
+    return f"; did you mean {spelt[close[0]]}?" if close else ""
 
 
 def _is_number(value: Any) -> TypeGuard[float]:
@@ -206,14 +213,9 @@ def _is_number(value: Any) -> TypeGuard[float]:
 
 
 @contextmanager
-def _readable(value: object, unit: str, path: str) -> Iterator[None]:
-    """What a text says is a quantity of sane size; complaints name the path."""
-    refusal = SceneError(f"must be a quantity in {unit}, got {value!r}", field=path)
-    if isinstance(value, str) and (len(value) > MOST_CHARACTERS or POWER_OF_NUMBER.search(value)):
-        raise refusal
+def _readable(path: str) -> Iterator[None]:
+    """What a text says is a quantity; complaints name the path."""
     try:
         yield
     except UnitError as error:
         raise SceneError(str(error), field=path) from None
-    except ZeroDivisionError:
-        raise refusal from None

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from operator import itemgetter
 
-from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import entries, listed, number
 
 __all__ = ["History", "Steady", "factor", "history", "kinks"]
@@ -39,7 +39,9 @@ def history(value: object, field: str) -> Steady | Table | Callable[[float], flo
     if value is None or isinstance(value, Steady) or callable(value):
         return value
     if not isinstance(value, Iterable) or isinstance(value, str):
-        raise SceneError(f"must be None, Steady(), rows (t, factor) or a function of t, got {value!r}", field=field)
+        raise SceneError(
+            f"must be None, Steady(), rows (t, factor) or a function of t, got {quoted(value)}", field=field
+        )
     rows = [entries(row, f"{field}[{i}]", "", 2) for i, row in enumerate(listed(value))]
     table = tuple((number(t, f"{field}[{i}][0]"), number(f, f"{field}[{i}][1]")) for i, (t, f) in enumerate(rows))
     if not table:

@@ -53,6 +53,10 @@ RODS = {
     ),
     "curved": Kind(Rod.curved, {"length": METRE, "curvature": Quantity("1/m"), **FRAMED}),
     "through": Kind(Rod.through, {"points": METRE, "d2": Plain(), "pretwist": Quantity("rad/m")}),
+    "from_mesh": Kind(
+        Rod.from_mesh,
+        {"file": Plain(), "unit": Plain(), "group": Plain(), "d2": Plain(), "pretwist": Quantity("rad/m")},
+    ),
 }
 HERE: dict[str, Field] = {"at": At(), "rod": Plain()}
 SUPPORTS = {

@@ -11,7 +11,7 @@ from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS
 if TYPE_CHECKING:
     from dolfinrod.scene.scene import Scene
 
-__all__ = ["advice", "free_motions"]
+__all__ = ["advice", "free_motions", "named", "null_space"]
 
 # A rigid motion that supports resist with less than this fraction of their full grip is free.
 FREE = 1e-9
@@ -36,11 +36,23 @@ def free_motions(scene: Scene) -> tuple[str, ...]:
         if not len(rows):
             sentences.append(f"rods[{k}] is held nowhere")
             continue
-        free = _null_space(rows)
-        translations = _null_space(free[:, 3:].T) @ free
-        sentences += [f"rods[{k}] is free to move along {_direction(motion[:3])}" for motion in translations]
-        sentences += [f"rods[{k}] is free to turn about {_direction(axis)}" for axis in _span(free[:, 3:])]
+        sentences += named(k, null_space(rows))
     return tuple(sentences)
+
+
+def named(rod: int, free: np.ndarray) -> list[str]:
+    """Rigid motions in words.
+
+    Args:
+        rod: Number of the rod.
+        free: Independent motions (v, ω), shape (n, 6).
+
+    Returns:
+        One sentence a motion: the translations among them, then the turns left over.
+    """
+    translations = null_space(free[:, 3:].T) @ free
+    moved = [f"rods[{rod}] is free to move along {_direction(motion[:3])}" for motion in translations]
+    return moved + [f"rods[{rod}] is free to turn about {_direction(axis)}" for axis in _span(free[:, 3:])]
 
 
 def _resisted(scene: Scene, k: int) -> np.ndarray:
@@ -58,8 +70,8 @@ def _resisted(scene: Scene, k: int) -> np.ndarray:
     return np.array(rows).reshape(-1, 6)
 
 
-def _null_space(rows: np.ndarray) -> np.ndarray:
-    """Orthonormal rows that all `rows` are normal to."""
+def null_space(rows: np.ndarray) -> np.ndarray:
+    """Orthonormal rows that all `rows`, shape (any, n), are normal to, shape (n − rank, n)."""
     _, grip, right = np.linalg.svd(rows)
     return np.asarray(right[int((grip > FREE).sum()) :])
 

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.quantity import assign, count, positive
 
 __all__ = ["Static"]
+
+MOST_STEPS = 1_000_000
+# Beyond these a fraction of the time is no longer told from nothing, or from infinity.
+SHORTEST, LONGEST = 1e-100, 1e100
 
 
 @dataclass(frozen=True)
@@ -18,15 +23,15 @@ class Static:
         t_end: Where the pseudo-time ends; proportional loads are full there.
 
     Raises:
-        SceneError: Not a whole number of steps, or no positive time.
+        SceneError: Not a whole number of steps, more than a million of them, or no positive time.
     """
 
     steps: int | None = None
     t_end: float = 1.0
 
     def __post_init__(self) -> None:
-        assign(
-            self,
-            steps=None if self.steps is None else count(self.steps, "Static.steps"),
-            t_end=positive(self.t_end, "Static.t_end"),
-        )
+        t_end = positive(self.t_end, "Static.t_end")
+        if not SHORTEST <= t_end <= LONGEST:
+            raise SceneError(f"must lie between {SHORTEST} and {LONGEST}, got {t_end}", field="Static.t_end")
+        steps = None if self.steps is None else count(self.steps, "Static.steps", MOST_STEPS)
+        assign(self, steps=steps, t_end=t_end)

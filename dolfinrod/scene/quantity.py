@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.errors import SceneError, quoted
 
 __all__ = [
     "Place",
@@ -25,6 +25,7 @@ __all__ = [
     "number",
     "place",
     "positive",
+    "require",
     "rod_index",
     "vector",
 ]
@@ -43,7 +44,7 @@ def assign(record: object, **values: object) -> None:
 def spoken(value: object, unit: str) -> str:
     """A value with its unit, as it is quoted in a complaint."""
     numeric = isinstance(value, Real) and not isinstance(value, bool)
-    return f"{value} {unit}".rstrip() if numeric else repr(value)
+    return f"{quoted(value)} {unit}".rstrip() if numeric else quoted(value)
 
 
 def number(value: object, field: str, unit: str = "") -> float:
@@ -103,7 +104,7 @@ def entries(value: object, field: str, unit: str, n: int) -> tuple[object, ...]:
     """The `n` entries of a sequence, not yet checked one by one."""
     found = listed(value)
     if len(found) != n:
-        raise SceneError(f"must have {n} entries{f' [{unit}]' * bool(unit)}, got {value!r}", field=field)
+        raise SceneError(f"must have {n} entries{f' [{unit}]' * bool(unit)}, got {quoted(value)}", field=field)
     return found
 
 
@@ -115,11 +116,42 @@ def listed(value: Any) -> tuple[object, ...]:
         return ()
 
 
-def count(value: object, field: str) -> int:
-    """A whole number of at least one."""
+def count(value: object, field: str, most: int) -> int:
+    """A whole number of at least one.
+
+    Args:
+        value: Any whole number.
+        field: Dotted name of the field.
+        most: Beyond it the number can only be a slip of the pen.
+
+    Returns:
+        The value as a Python int.
+
+    Raises:
+        SceneError: Not a whole number, or too small or large.
+    """
     if not isinstance(value, Integral) or isinstance(value, bool) or value < 1:
-        raise SceneError(f"must be a whole number of at least 1, got {value!r}", field=field)
-    return int(value)
+        raise SceneError(f"must be a whole number of at least 1, got {quoted(value)}", field=field)
+    n = int(value)
+    if n > most:
+        raise SceneError(f"must be at most {most}, got {quoted(n)}", field=field)
+    return n
+
+
+def require(owner: str, values: Mapping[str, object]) -> None:
+    """Nothing that must be given is left out.
+
+    Args:
+        owner: What the values are for, such as "Section".
+        values: Each by its name; None: left out.
+
+    Raises:
+        SceneError: Some are missing, all of them named.
+    """
+    first, *others = [name for name, value in values.items() if value is None] or [""]
+    if first:
+        also = f", and so {'is' if len(others) == 1 else 'are'} {' and '.join(others)}" if others else ""
+        raise SceneError(f"is missing{also}", field=f"{owner}.{first}")
 
 
 def rod_index(value: object, field: str) -> int | None:
@@ -127,7 +159,9 @@ def rod_index(value: object, field: str) -> int | None:
     if value is None:
         return None
     if not isinstance(value, Integral) or isinstance(value, bool) or value < 0:
-        raise SceneError(f"must be the number of a rod (0, 1, …) or None for every rod, got {value!r}", field=field)
+        raise SceneError(
+            f"must be the number of a rod (0, 1, …) or None for every rod, got {quoted(value)}", field=field
+        )
     return int(value)
 
 
@@ -138,7 +172,7 @@ def place(value: object, field: str) -> Place:
             return "start"
         if value == "end":
             return "end"
-        raise SceneError(f'must be "start", "end" or an arc length [m], got {value!r}', field=field)
+        raise SceneError(f'must be "start", "end" or an arc length [m], got {quoted(value)}', field=field)
     return nonnegative(value, field, "m")
 
 
@@ -146,5 +180,5 @@ def names(value: object, field: str, known: Sequence[str]) -> frozenset[str]:
     """A set of names out of those known."""
     given = value if isinstance(value, (Set, list, tuple)) else listed(value) or (value,)
     if any(not isinstance(name, str) or name not in known for name in given):
-        raise SceneError(f"must be a set of names out of {', '.join(known)}, got {value!r}", field=field)
+        raise SceneError(f"must be a set of names out of {', '.join(known)}, got {quoted(value)}", field=field)
     return frozenset(str(name) for name in given)

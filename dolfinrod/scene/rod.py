@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.mesh import polyline
 from dolfinrod.scene.quantity import VectorLike, assign, number, positive
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import Shape, UniformCurvature, rotation_about_d1
@@ -27,7 +29,7 @@ class Rod:
     Wherever d2 is left None it is z × d1, and y where d1 is along z: a rod along x has d2 = y and d3 = z.
 
     Args:
-        shape: The framed curve; made by `straight`, `arc`, `curved` and `through`.
+        shape: The framed curve; made by `straight`, `arc`, `curved`, `through` and `from_mesh`.
         section: Stiffness and inertia.
         pretwist: Angle of the stress-free section per length, beyond that of the shape's frame [rad/m].
 
@@ -151,6 +153,33 @@ class Rod:
             The rod.
         """
         return cls(Spline(points, d2), section, pretwist)
+
+    @classmethod
+    def from_mesh(
+        cls,
+        file: str | Path,
+        section: Section,
+        unit: str = "m",
+        group: str | None = None,
+        d2: VectorLike | None = None,
+        pretwist: float = 0.0,
+    ) -> Rod:
+        """Rod along the smooth cubic curve through the points of a mesh of line cells, as `through` them in order.
+
+        The cells may stand in any order and orientation; the rod runs the way the first of them does.
+
+        Args:
+            file: Path of a mesh that meshio reads (VTU, Gmsh, XDMF, …); other cells than lines are passed over.
+            section: Stiffness and inertia.
+            unit: Unit of length of the file's coordinates, such as "mm".
+            group: Physical group or cell set to read; None: all line cells.
+            d2: Second section axis at the start; None: chosen.
+            pretwist: Stress-free twist [rad/m].
+
+        Returns:
+            The rod.
+        """
+        return cls(Spline(polyline(file, unit=unit, group=group), d2), section, pretwist)
 
     @property
     def length(self) -> float:

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from itertools import combinations
+from itertools import groupby
+from operator import itemgetter
 
-from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
 from dolfinrod.scene.motion import Static
 from dolfinrod.scene.quantity import Place, assign
 from dolfinrod.scene.rod import Rod
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
 
-__all__ = ["Scene"]
+__all__ = ["MOST_PARTS", "Scene"]
 
 SUPPORTS = (Clamp, Pin, Guide, Prescribed)
 POINT_LOADS = (PointForce, PointMoment, FollowerForce, FollowerMoment)
+# Beyond these a scene can only be a slip of the pen, and checking it would take more than seconds.
+MOST_PARTS = 10_000
+MOST_PLACES = 1_000_000
 # Arc lengths closer than this fraction of a rod are one place: text and sums leave round-off.
 SAME_PLACE = 1e-9
 
@@ -48,9 +52,12 @@ class Scene:
         for name in ("rods", "supports", "loads", "contacts"):
             value = getattr(self, name)
             if not isinstance(value, (tuple, list)):
-                raise SceneError(f"must be a tuple, got {value!r}", field=name)
+                raise SceneError(f"must be a tuple, got {quoted(value)}", field=name)
+            if len(value) > MOST_PARTS:
+                raise SceneError(f"must be at most {MOST_PARTS}, got {len(value)}", field=name)
             assign(self, **{name: tuple(value)})
         self._check_kinds()
+        self._check_number_of_places()
         for name, parts in (("supports", self.supports), ("loads", self.loads)):
             for i, part in enumerate(parts):
                 self._check_places(part, f"{name}[{i}]")
@@ -99,15 +106,17 @@ class Scene:
             for i, part in enumerate(getattr(self, name)):
                 if not isinstance(part, allowed):
                     known = ", ".join(kind.__name__ for kind in allowed)
-                    raise SceneError(f"must be one of {known}, got {part!r}", field=f"{name}[{i}]")
+                    raise SceneError(f"must be one of {known}, got {quoted(part)}", field=f"{name}[{i}]")
         if not self.rods:
             raise SceneError("must hold at least one rod, got none", field="rods")
         if self.contacts:
-            raise SceneError(f"must be empty, this version knows no contact, got {self.contacts!r}", field="contacts")
+            raise SceneError(
+                f"must be empty, this version knows no contact, got {quoted(self.contacts)}", field="contacts"
+            )
         if self.air is not None:
-            raise SceneError(f"must be None, this version knows no air, got {self.air!r}", field="air")
+            raise SceneError(f"must be None, this version knows no air, got {quoted(self.air)}", field="air")
         if not isinstance(self.motion, Static):
-            raise SceneError(f"must be Static, got {self.motion!r}", field="motion")
+            raise SceneError(f"must be Static, got {quoted(self.motion)}", field="motion")
 
     def _check_places(self, part: Support | Load, path: str) -> None:
         """The rod exists and the place lies on it."""
@@ -126,6 +135,13 @@ class Scene:
                     beyond = f"must lie on rod {k}, between 0 and {length} m, got {s} m"
                     raise SceneError(beyond, field=f"{path}.{name}")
 
+    def _check_number_of_places(self) -> None:
+        """Parts on every rod do not multiply beyond reason."""
+        parts = [part for part in (*self.supports, *self.loads) if not isinstance(part, Gravity)]
+        n = sum(len(self.rods) if part.rod is None else 1 for part in parts)
+        if n > MOST_PLACES:
+            raise SceneError(f"supports and loads must be at no more than {MOST_PLACES} places of all rods, got {n}")
+
     def _check_density(self) -> None:
         """Gravity finds a mass on every rod."""
         weights = [i for i, load in enumerate(self.loads) if isinstance(load, Gravity)]
@@ -136,12 +152,30 @@ class Scene:
 
     def _check_supports(self) -> None:
         """No component is held twice at one place; prescribed motions compose."""
-        for (i, first), (j, second) in combinations(enumerate(self.supports), 2):
-            twice = sorted(first.held() & second.held())
-            if not twice or (isinstance(first, Prescribed) and isinstance(second, Prescribed)):
-                continue
-            for k, s in self.location(second.at, second.rod):
-                close = SAME_PLACE * self.rods[k].length
-                if any(m == k and abs(s - t) <= close for m, t in self.location(first.at, first.rod)):
-                    held = f"must not hold {', '.join(twice)} again at s = {s} m of rod {k}: supports[{i}] does already"
-                    raise SceneError(held, field=f"supports[{j}]")
+        at = sorted((k, s, i) for i, part in enumerate(self.supports) for k, s in self.location(part.at, part.rod))
+        for k, on_rod in groupby(at, key=itemgetter(0)):
+            close = SAME_PLACE * self.rods[k].length
+            anchor, together = 0.0, list[tuple[int, float]]()
+            for _, s, i in on_rod:
+                if s - anchor > close:
+                    self._check_together(together, k)
+                    anchor, together = s, []
+                together.append((i, s))
+            self._check_together(together, k)
+
+    def _check_together(self, together: list[tuple[int, float]], k: int) -> None:
+        """Supports at one place, given by their numbers and arc lengths, share no component."""
+        firm: dict[str, int] = {}
+        every: dict[str, int] = {}
+        for j, s in sorted(together):
+            support = self.supports[j]
+            prescribed = isinstance(support, Prescribed)
+            earlier = firm if prescribed else every
+            twice = sorted(support.held() & earlier.keys())
+            if twice:
+                i = earlier[twice[0]]
+                held = f"must not hold {', '.join(twice)} again at s = {s} m of rod {k}: supports[{i}] does already"
+                raise SceneError(held, field=f"supports[{j}]")
+            every |= dict.fromkeys(support.held(), j)
+            if not prescribed:
+                firm |= dict.fromkeys(support.held(), j)

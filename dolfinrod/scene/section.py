@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from math import inf, pi, tanh
 
-from dolfinrod.scene.errors import SceneError
-from dolfinrod.scene.quantity import Vector, assign, entries, names, nonnegative, positive, vector
+from dolfinrod.scene.errors import SceneError, quoted
+from dolfinrod.scene.quantity import Vector, assign, entries, names, nonnegative, positive, require, vector
 from dolfinrod.units import CN_PER_TEX
 
 __all__ = ["Section"]
@@ -33,7 +33,8 @@ class Section:
         radius: Radius of a circular section, where its surface matters [m].
 
     Raises:
-        SceneError: A stiffness, mass or radius that is not finite and positive, or an unknown strain.
+        SceneError: A stiffness that is missing, a stiffness, mass or radius that is not finite and positive, or an
+            unknown strain.
     """
 
     EA: float
@@ -50,14 +51,16 @@ class Section:
         *,
         EA: float | None = None,
         GA: float | Pair | None = None,
-        GJ: float,
-        EI: float | Pair,
+        GJ: float | None = None,
+        EI: float | Pair | None = None,
         rhoA: float | None = None,
         rhoI: Vector | None = None,
         rigid: Iterable[str] = frozenset(),
         radius: float | None = None,
     ) -> None:
         strains = names(rigid, "Section.rigid", ("shear", "extension"))
+        elastic = {"EA": inf if "extension" in strains else EA, "GA": inf if "shear" in strains else GA}
+        require("Section", {**elastic, "GJ": GJ, "EI": EI})
         assign(
             self,
             EA=inf if "extension" in strains else positive(EA, "Section.EA", "N"),
@@ -74,9 +77,9 @@ class Section:
     def circle(
         cls,
         *,
-        diameter: float,
-        E: float,
-        G: float,
+        diameter: float | None = None,
+        E: float | None = None,
+        G: float | None = None,
         density: float | None = None,
         shear_factor: float = 0.9,
         rigid: Iterable[str] = frozenset(),
@@ -95,8 +98,9 @@ class Section:
             The section, its `radius` known.
 
         Raises:
-            SceneError: A number that is not finite and positive.
+            SceneError: A number that is missing, or not finite and positive.
         """
+        require("Section", {"diameter": diameter, "E": E, "G": G})
         d = positive(diameter, "Section.diameter", "m")
         A = pi * d * d / 4
         second = A * d * d / 16
@@ -106,10 +110,10 @@ class Section:
     def rectangle(
         cls,
         *,
-        width: float,
-        height: float,
-        E: float,
-        G: float,
+        width: float | None = None,
+        height: float | None = None,
+        E: float | None = None,
+        G: float | None = None,
         density: float | None = None,
         shear_factor: float = 5 / 6,
         torsion: str = "st_venant",
@@ -131,14 +135,15 @@ class Section:
             The section.
 
         Raises:
-            SceneError: A number that is not finite and positive, or an unknown torsion.
+            SceneError: A number that is missing, or not finite and positive, or an unknown torsion.
         """
+        require("Section", {"width": width, "height": height, "E": E, "G": G})
         b = positive(width, "Section.width", "m")
         h = positive(height, "Section.height", "m")
         A = b * h
         second = (A * h * h / 12, A * b * b / 12)
         if not isinstance(torsion, str) or torsion not in ("st_venant", "polar"):
-            raise SceneError(f'must be "st_venant" or "polar", got {torsion!r}', field="Section.torsion")
+            raise SceneError(f'must be "st_venant" or "polar", got {quoted(torsion)}', field="Section.torsion")
         J = sum(second) if torsion == "polar" else st_venant_constant(b, h)
         return cls._solid(A, second, J, E, G, density, shear_factor, rigid)
 
@@ -174,8 +179,8 @@ class Section:
         A: float,
         second: Pair,
         J: float,
-        E: float,
-        G: float,
+        E: float | None,
+        G: float | None,
         density: float | None,
         shear_factor: float,
         rigid: Iterable[str],

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import VectorLike, assign, vector
 from dolfinrod.scene.shape import orthonormal, rotation_about_d1, skew
 
@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 ROUND_OFF = 1e-13
 MAX_HALVINGS = 20
+# The curve through so many is integrated within seconds.
+MOST_POINTS = 10_000
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,8 @@ class Spline:
         d2: d2 at the start, of any length and not along the curve; None: z × d1, and y where d1 is along z.
 
     Raises:
-        SceneError: Fewer than two points, a point twice in a row, or a curve that turns back on the spot.
+        SceneError: Fewer than two or more than 10 000 points, one twice in a row, or a curve that turns back on
+            the spot.
     """
 
     points: Sequence[VectorLike] | Array
@@ -52,7 +55,9 @@ class Spline:
         given = self.points if isinstance(self.points, Iterable) else ()
         points = tuple(vector(p, f"Rod.points[{i}]", "m") for i, p in enumerate(given))
         if len(points) < 2:
-            raise SceneError(f"must be at least two points [m], got {self.points!r}", field="Rod.points")
+            raise SceneError(f"must be at least two points [m], got {quoted(self.points)}", field="Rod.points")
+        if len(points) > MOST_POINTS:
+            raise SceneError(f"must be at most {MOST_POINTS}, got {len(points)}", field="Rod.points")
         chords = np.linalg.norm(np.diff(points, axis=0), axis=1)
         for i in np.flatnonzero(chords <= 1e-12 * chords.sum()) + 1:
             raise SceneError(f"must lie apart from the point before, got {points[i]} m", field=f"Rod.points[{i}]")

@@ -17,7 +17,8 @@
     point_force = { at = "end", force = ["0 N", "-1 uN", "0 N"] }
 
 Plain numbers are SI. A section is `circle`, `rectangle` or `ramie`, or has the fields of `Section` itself. A history is
-"steady" or rows [t, factor]; a displacement that is not prescribed is "free".
+"steady" or rows [t, factor]; a displacement that is not prescribed is "free". The file of a rod `from_mesh` is sought
+from the folder of the scene file.
 """
 
 from __future__ import annotations
@@ -28,20 +29,21 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from dolfinrod.scene import source
 from dolfinrod.scene.errors import SceneError
-from dolfinrod.scene.fields import Kind, Specific, refuse_unknown
+from dolfinrod.scene.fields import Kind, Specific, meant, refuse_unknown
 from dolfinrod.scene.kinds import LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS
 from dolfinrod.scene.motion import Static
+from dolfinrod.scene.options import options
 from dolfinrod.scene.rod import Rod
-from dolfinrod.scene.scene import Scene
+from dolfinrod.scene.scene import MOST_PARTS, Scene
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import UniformCurvature
 from dolfinrod.scene.spline import Spline
 
 __all__ = ["dumps", "load", "loads"]
 
-# Far beyond any scene, and read within seconds: tomllib's time grows with the square of the names in a dotted key.
-MOST_BYTES = 4_000_000
+# The time of tomllib grows with the square of the names in a dotted key.
 NAME = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+"""
 ENDLESS_KEY = re.compile(rf"""(?<![\w"'-])(?:{NAME}\.[ \t]*+){{32}}""")
 
@@ -59,23 +61,17 @@ def load(path: str | Path) -> tuple[Scene, dict[str, Any]]:
         SceneError: Not TOML, or a field that is unknown, missing, or cannot be.
         OSError: The file cannot be read.
     """
-    with Path(path).open("rb") as file:
-        data = file.read(MOST_BYTES + 1)
-    if len(data) > MOST_BYTES:
-        raise SceneError(f"a scene must be a file of at most {MOST_BYTES} bytes")
-    try:
-        return loads(data.decode("utf-8-sig"))
-    except UnicodeDecodeError as error:
-        raise SceneError(f"{path} must be text in UTF-8: {error}") from None
+    return loads(source.text(path), folder=Path(path).parent)
 
 
-def loads(text: str) -> tuple[Scene, dict[str, Any]]:
-    """A scene from the text of a file; as `load`."""
+def loads(text: str, *, folder: str | Path = ".") -> tuple[Scene, dict[str, Any]]:
+    """A scene from the text of a file; as `load`, the files it names being sought from `folder`."""
     if ENDLESS_KEY.search(text):
         raise SceneError("a scene must not nest tables so deeply: more than 32 names joined by dots")
     try:
         data = _parsed(text)
-        return _scene(data), _table(data.get("solve", {}), "solve")
+        scene = _scene(data, Path(folder))
+        return scene, options(_table(data.get("solve", {}), "solve"), len(scene.rods))
     except RecursionError:
         raise SceneError("a scene must not nest lists and tables so deeply") from None
 
@@ -88,14 +84,14 @@ def _parsed(text: str) -> dict[str, Any]:
         raise SceneError(f"a scene must be a TOML file: {error}") from None
 
 
-def _scene(data: Mapping[str, Any]) -> Scene:
+def _scene(data: Mapping[str, Any], folder: Path) -> Scene:
     """The scene that the tables of a file describe."""
     refuse_unknown(data, ("section", "rods", "supports", "loads", "motion", "solve"), "")
     sections = {
         name: _section(table, f"section.{name}") for name, table in _table(data.get("section", {}), "section").items()
     }
     return Scene(
-        rods=[_rod(table, f"rods[{i}]", sections) for i, table in enumerate(_list(data, "rods"))],
+        rods=[_rod(table, f"rods[{i}]", sections, folder) for i, table in enumerate(_list(data, "rods"))],
         supports=[_one(SUPPORTS, table, f"supports[{i}]") for i, table in enumerate(_list(data, "supports"))],
         loads=[_one(LOADS, table, f"loads[{i}]") for i, table in enumerate(_list(data, "loads"))],
         motion=_one(MOTIONS, data["motion"], "motion") if data.get("motion", {}) != {} else Static(),
@@ -148,17 +144,19 @@ def _section(table: Any, path: str) -> Section:
     return made
 
 
-def _rod(table: Any, path: str, sections: Mapping[str, Section]) -> Rod:
-    """A rod: its shape, and the name of its section."""
+def _rod(table: Any, path: str, sections: Mapping[str, Section], folder: Path) -> Rod:
+    """A rod: its shape, and the name of its section; a mesh lies beside the scene file."""
     shape = dict(_table(table, path))
     if "section" not in shape:
         raise SceneError("is missing", field=f"{path}.section")
     name = shape.pop("section")
     if not isinstance(name, str) or name not in sections:
-        raise SceneError(
-            f"must be the name of a section ({', '.join(sections)}), got {name!r}", field=f"{path}.section"
-        )
+        close = meant(name, sections) if isinstance(name, str) else ""
+        message = f"must be the name of a section ({', '.join(sections)}), got {name!r}{close}"
+        raise SceneError(message, field=f"{path}.section")
     kind, inner, path = _only(RODS, shape, path)
+    if kind is RODS["from_mesh"] and isinstance(inner, dict) and isinstance(inner.get("file"), str):
+        inner = inner | {"file": folder / inner["file"]}
     rod: Rod = kind.read(inner, path, section=sections[name])
     return rod
 
@@ -191,6 +189,8 @@ def _list(data: Mapping[str, Any], name: str) -> list[Any]:
     value = data.get(name, [])
     if not isinstance(value, list):
         raise SceneError(f"must be a list of tables, written [[{name}]], got {value!r}", field=name)
+    if len(value) > MOST_PARTS:  # before each is read
+        raise SceneError(f"must be at most {MOST_PARTS}, got {len(value)}", field=name)
     return value
 
 

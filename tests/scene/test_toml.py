@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import re
+import tomllib
+from copy import deepcopy
+from datetime import date
+from math import nan
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,7 +26,7 @@ positive = st.floats(1e-12, 1e12)
 vectors = st.tuples(numbers, numbers, numbers)
 directions = vectors.filter(lambda v: np.linalg.norm(v) > 1e-6)
 components = st.none() | numbers
-sections = st.builds(
+bare = st.builds(
     dr.Section,
     EA=positive,
     GA=st.tuples(positive, positive),
@@ -30,6 +37,16 @@ sections = st.builds(
     rigid=st.sets(st.sampled_from(["shear", "extension"])),
     radius=st.none() | positive,
 )
+solid = {"E": positive, "G": positive, "density": positive, "rigid": st.sets(st.just("shear"))}
+sides = st.floats(1e-6, 1e3)
+sections = st.one_of(
+    bare,
+    st.builds(dr.Section.circle, diameter=sides, shear_factor=st.floats(0.1, 1.0), **solid),
+    st.builds(
+        dr.Section.rectangle, width=sides, height=sides, torsion=st.sampled_from(["st_venant", "polar"]), **solid
+    ),
+    st.builds(dr.Section.ramie, rigid=st.sets(st.sampled_from(["shear", "extension"]))),
+)
 knots = st.lists(st.tuples(*[st.integers(-9, 9)] * 2), min_size=2, max_size=5, unique=True)
 rods = st.one_of(
     st.builds(dr.Rod.straight, st.just(1.0), sections, vectors, directions, pretwist=numbers),
@@ -37,7 +54,10 @@ rods = st.one_of(
     st.builds(dr.Rod.arc, positive, st.floats(0.1, 9.0), sections, vectors, st.just((0, 1, 1)), st.just((0, 0, 2))),
     # Ascending, so that no curve turns back on the spot.
     st.builds(
-        lambda p, s: dr.Rod.through([(k + 0.1, *yz) for k, yz in enumerate(p)], s, pretwist=0.1), knots, sections
+        lambda p, s, d2: dr.Rod.through([(k + 0.1, *yz) for k, yz in enumerate(p)], s, d2, pretwist=0.1),
+        knots,
+        sections,
+        st.none() | st.sampled_from([(0, 5, 1), (0.1, 5, 1)]),
     ),
 )
 places = st.sampled_from(["start", "end"]) | st.floats(0.0, 1e-13)
@@ -83,7 +103,7 @@ def test_files_are_read_as_their_text(tmp_path: Path) -> None:
     file.write_text(COMPLETE, encoding="utf-8")
     assert load(file) == load(str(file)) == loads(COMPLETE)
     file.write_bytes(b"\xff\xfe")
-    with pytest.raises(SceneError, match=r"scene\.toml must be text in UTF-8"):
+    with pytest.raises(SceneError, match=r"a scene must be text in UTF-8"):
         load(file)
 
 
@@ -159,6 +179,32 @@ def test_every_kind_reads_as_in_python() -> None:
     assert options == {}
 
 
+def leaves(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    """Paths of all plain values in nested tables and lists."""
+    if isinstance(value, dict | list):
+        pairs = value.items() if isinstance(value, dict) else enumerate(value)
+        return [found for key, inner in pairs for found in leaves(inner, (*path, key))]
+    return [path]
+
+
+DATA = tomllib.loads(EVERY_KIND + "[solve]\nelements = [4, 4, 4]\ndegree = 3\nkinematics = 'planar'")
+
+
+@pytest.mark.parametrize("wrong", [{"a": 1}, "absurd", nan, date(1979, 5, 27), [[[]]], "9 lightyear**9"])
+@pytest.mark.parametrize("path", leaves(DATA), ids=str)
+def test_whatever_single_field_is_wrong_is_named(path: tuple[Any, ...], wrong: object) -> None:
+    data = deepcopy(DATA)
+    inner = data
+    for key in path[:-1]:
+        inner = inner[key]
+    inner[path[-1]] = wrong
+    with pytest.raises(SceneError) as caught:
+        loads(tomli_w.dumps(data))
+    field = [key for key in path if isinstance(key, str)][-1]
+    # The constructor knows the side of an arc as its d2.
+    assert {"towards": "d2"}.get(field, field) in re.split(r"[.\[\]]", caught.value.field)
+
+
 def test_a_function_of_time_cannot_be_written() -> None:
     rod = dr.Rod.straight(1.0, dr.Section.ramie())
     scene = dr.Scene([rod], loads=[dr.Gravity((0, 0, 1)), dr.Gravity((0, 0, 1), history=np.sin)])
@@ -173,12 +219,12 @@ def test_a_function_of_time_cannot_be_written() -> None:
         (
             "[solve]",
             "[resolve]",
-            r"^resolve is not known here; known are section, rods, supports, loads, motion, solve",
+            r"^resolve is unknown; known are section, rods, supports, loads, motion, solve",
         ),
         (
             'at = "end", force',
             'at = "end", farce',
-            r"loads\[0\]\.point_force\.farce is not known here; known are force",
+            r"loads\[0\]\.point_force\.farce is unknown; known are force",
         ),
         ('at = "end", ', "", r"loads\[0\]\.point_force\.at is missing"),
         ('"-1 uN"', '"-1 um"', r"loads\[0\]\.point_force\.force\[1\] must be a quantity in N, got '-1 um'"),
@@ -186,7 +232,7 @@ def test_a_function_of_time_cannot_be_written() -> None:
         ('"-1 uN"', "nan", r"loads\[0\]\.point_force\.force\[1\] must be a finite number \[N\], got nan N"),
         ('"-1 uN"', "true", r"loads\[0\]\.point_force\.force\[1\] must be a quantity in N, got True"),
         (', "0 N"]', "]", r"loads\[0\]\.point_force\.force must have 3 entries \[N\], got \(0\.0, -1e-06\)"),
-        ("point_force", "push", r"loads\[0\]\.push is not known here; known are point_force, point_moment,"),
+        ("point_force", "push", r"loads\[0\]\.push is unknown; known are point_force, point_moment,"),
         ("[[loads]]", "[loads]", r"loads must be a list of tables, written \[\[loads\]\], got"),
         ('at = "start"', 'at = "3 kg"', r"supports\[0\]\.clamp\.at must be \"start\", \"end\" or a length, got '3 kg'"),
         ('clamp = { at = "start" }', "", r"supports\[0\] must be one of clamp, pin, guide, prescribed, got none"),
@@ -208,14 +254,14 @@ def test_a_function_of_time_cannot_be_written() -> None:
             "shear_factor = 1 #",
             r"section\.ramie\.circle\.density must be given, since E is a modulus per density",
         ),
-        (".circle]", "]", r"section\.ramie\.diameter is not known here; known are EA, GA, GJ, EI"),
+        (".circle]", "]", r"section\.ramie\.diameter is unknown; known are EA, GA, GJ, EI"),
         (
             "[motion.static]",
             "[motion.static]\nsteps = 0",
             r"motion\.static\.steps must be a whole number of at least 1, got 0",
         ),
-        ("[motion.static]", "[motion.dynamic]", r"motion\.dynamic is not known here; known are static"),
-        ("[solve]", "[air]", r"air is not known here"),
+        ("[motion.static]", "[motion.dynamic]", r"motion\.dynamic is unknown; known are static"),
+        ("[solve]", "[air]", r"air is unknown"),
     ],
 )
 def test_a_file_that_cannot_be_is_refused_by_field(old: str, new: str, message: str) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import isfinite, pi
 
 import pytest
 from hypothesis import given
@@ -27,6 +27,8 @@ from dolfinrod.units import CN_PER_TEX, TEX, UnitError, has_unit, si
         ("0.1 N mm", "N*m", 1e-4),
         ("-2.5e-7 1/m", "1/m", -2.5e-7),
         (".5 m^-1", "1/m", 0.5),
+        ("3 m⁻¹", "1/m", 3.0),
+        ("3 m**(-1)", "1/m", 3.0),
         ("180 deg", "rad", pi),
         ("680 turn/m", "rad/m", 1360 * pi),
         ("1e-320 m", "m", 1e-320),
@@ -54,6 +56,12 @@ NOT_LENGTHS = [
     "1 mm mm",
     "1 dBm",
     "1 m/",
+    "1 m/0",
+    "1 m**0",
+    "2 m 2 m",
+    "3 dB",
+    "1 m*Np",
+    "1 m**a",
     "__import__('os')",
 ]
 
@@ -62,6 +70,41 @@ NOT_LENGTHS = [
 def test_what_is_no_length_is_refused(text: object) -> None:
     with pytest.raises(UnitError, match=r"^must be a quantity in m, got "):
         si(text, "m")
+
+
+ENDLESS = [
+    "9**9**9 m",
+    "1 m**9**9**9",
+    "1 mm**99999999/cm**99999998",
+    "1 mm⁹⁹⁹⁹⁹⁹⁹/cm⁹⁹⁹⁹⁹⁹⁸",
+    "1 (((((((((mm⁹)⁹)⁹)⁹)⁹)⁹)⁹)⁹)⁹)⁹",
+    "1 mm**(99*99*99*99*99)",
+    "1 m*1e999999999",
+    "1 " + "(" * 999 + "m" + ")" * 999,
+    "1" * 10**6 + " m",
+]
+
+
+@pytest.mark.parametrize("text", ENDLESS)
+def test_what_no_computer_writes_down_is_refused_at_once(text: str) -> None:
+    with pytest.raises(UnitError, match=r"^must be a quantity in m, got "):
+        si(text, "m")
+    assert not has_unit(text, "m")
+
+
+def test_a_number_beyond_a_double_is_refused() -> None:
+    with pytest.raises(UnitError, match="got a number beyond the range of a double"):
+        si(10**5000, "m")
+
+
+@given(st.text("0123456789eE+-*/^()°·⁻²³µ mNradBpk_.", max_size=30))
+def test_whatever_is_typed_is_a_number_or_is_refused(text: str) -> None:
+    try:
+        length = si(f"1 {text}", "m")
+    except UnitError:
+        return
+    assert isfinite(length)
+    assert has_unit(f"1 {text}", "m")
 
 
 def test_an_unknown_unit_is_named() -> None:

@@ -1,4 +1,4 @@
-"""Cantilever under a dead tip force, P L²/EI = 1, 2, 5, 10 and beyond."""
+"""Cantilever under a dead tip force, P L²/EI = 0.2 to 10 and beyond."""
 
 from __future__ import annotations
 
@@ -29,7 +29,12 @@ __all__ = [
     "straight",
 ]
 
-LOADS = (1.0, 2.0, 5.0, 10.0)
+LOADS = (0.2, 0.4, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0)
+# The loads at which stretch and shear are compared.
+FEW = (1.0, 2.0, 5.0, 10.0)
+# L/h → Poisson's ratio and shear factor of the tabulated rectangular sections, and their loads.
+RECTANGLES = {10.0: (0.3, 5.0 / 6.0), 5.0: (0.0, 1.0)}
+SHEARED = (0.4, 1.0, 4.0, 10.0)
 # Inextensible, unshearable, EI = L = 1; torsion of a circle at ν = 0.3, which plane problems never use.
 RIGID = Section(GJ=1.0 / 1.3, EI=1.0, rigid={"shear", "extension"})
 
@@ -99,16 +104,26 @@ def isotropic(alpha: float, EA: float = 1e4) -> Case:
     )
 
 
-def shearable(alpha: float) -> Case:
-    """Simo–Reissner rod of rectangular section, L/h = 10, ν = 0.3, shear factor 5/6."""
-    EA, GA = 1200.0, 1200.0 / 2.6 * 5.0 / 6.0
-    known = alpha in (1.0, 10.0)
+def shearable(alpha: float, slenderness: float = 10.0) -> Case:
+    """Simo–Reissner rod of rectangular section: ν = 0.3, shear factor 5/6, or, for L/h = 5, ν = 0 without one.
+
+    Args:
+        alpha: Load P L²/EI.
+        slenderness: L/h, 10 or 5.
+
+    Returns:
+        The case.
+    """
+    poisson, factor = RECTANGLES[slenderness]
+    EA = 12.0 * slenderness**2
+    GA = factor * EA / (2.0 * (1.0 + poisson))
+    known = f"A2-SR-alpha{alpha:g}-Lh{slenderness:g}-nu{poisson}"
     return Case(
-        name=f"elastica-{alpha:g}-shear",
-        title=f"Elastica, PL²/EI = {alpha:g}, Simo–Reissner, L/h = 10",
+        name=f"elastica-{alpha:g}-shear" + ("" if slenderness == 10.0 else f"-{slenderness:g}"),
+        title=f"Elastica, PL²/EI = {alpha:g}, Simo–Reissner, L/h = {slenderness:g}",
         family="elastica",
         scene=loaded(alpha, Section(EA=EA, GA=GA, GJ=1.0, EI=1.0)),
-        reference=tabulated(f"A2-SR-alpha{alpha:g}-Lh10-nu0.3") if known else cantilever(alpha, EA=EA, GA=GA),
+        reference=tabulated(known) if alpha in SHEARED else cantilever(alpha, EA=EA, GA=GA),
         length=1.0,
         models=("continuum",),
     )
@@ -146,4 +161,9 @@ def in_plane(points: Array) -> Array:
     return np.column_stack([points, np.zeros(len(points))])
 
 
-CASES = (*map(inextensible, LOADS), *map(isotropic, LOADS), *map(shearable, LOADS))
+CASES = (
+    *map(inextensible, LOADS),
+    *map(isotropic, FEW),
+    *map(shearable, sorted({*FEW, *SHEARED})),
+    *(shearable(alpha, 5.0) for alpha in SHEARED),
+)

@@ -1,4 +1,4 @@
-"""Cantilever that sags under its own weight w: w L³/EI = 1 to 50."""
+"""Cantilever that sags under its own weight w: w L³/EI = 0.5 to 50."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CASES", "inextensible", "shearable"]
 
-WEIGHTS = (1.0, 5.0, 10.0, 20.0, 50.0)
+WEIGHTS = (0.5, 1.0, 2.0, 5.0, 8.0, 10.0, 20.0, 50.0)
 SHEARABLE = Section(EA=1200.0, GA=500.0, GJ=1.0 / 1.3, EI=1.0)
 
 
@@ -37,7 +37,7 @@ def inextensible(beta: float) -> Case:
     """The heavy elastica, its shape by collocation.
 
     Args:
-        beta: w L³/EI, one of 1, 5, 10, 20 and 50.
+        beta: w L³/EI, one of 0.5, 1, 2, 5, 8, 10, 20 and 50.
 
     Returns:
         The case.

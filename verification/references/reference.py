@@ -45,11 +45,12 @@ def table() -> dict[str, dict[str, Any]]:
     return found
 
 
-def tabulated(name: str, *, shift: Vector = (0.0, 0.0, 0.0), why: str = "") -> Reference:
+def tabulated(name: str, *, at: float | None = None, shift: Vector = (0.0, 0.0, 0.0), why: str = "") -> Reference:
     """Tip of a tabulated solution, moved by an exact shift.
 
     Args:
         name: Its id.
+        at: Load factor, of a solution tabulated along its path.
         shift: Added to it [m].
         why: What the shift is, for the record.
 
@@ -57,16 +58,22 @@ def tabulated(name: str, *, shift: Vector = (0.0, 0.0, 0.0), why: str = "") -> R
         The reference.
     """
     entry = table()[name]
-    q = entry["quantities"]
-    tip = (1.0 - q["u"], q["w"], 0.0) if "u" in q else (q["x"], q["y"], q.get("z", 0.0))
     return Reference(
-        id=name,
-        value=added(tip, shift),
+        id=name if at is None else f"{name}@{at}",
+        value=added(_tip(entry["quantities"], at), shift),
         method="; ".join(filter(None, (entry["method"], why))),
         source=entry["source"],
         digits_trusted=entry["digits_trusted"],
         agreement=entry["agreement"],
     )
+
+
+def _tip(quantities: dict[str, float], at: float | None) -> Vector:
+    """The tip among tabulated quantities: x, y and z, or displacements of a rod that lay on x ∈ [0, 1]."""
+    q = quantities
+    if at is not None:
+        return q[f"x@{at}"], q[f"y@{at}"], q[f"uz@{at}"]
+    return (1.0 - q["u"], q["w"], 0.0) if "u" in q else (q["x"], q["y"], q.get("z", 0.0))
 
 
 def cantilever(alpha: float, *, EA: float, GA: float) -> Reference:

@@ -1,6 +1,7 @@
 """The record as a page and as JSON.
 
-`figures` draws, `tables` and `sections` write HTML, `remarks` puts deviations into words, `page` puts it together.
+`canvas`, `diagrams` and `shapes` draw, `tables`, `sections`, `times` and `families` write HTML, `remarks` and `misses`
+put numbers into words, `contents` and `page` put it together.
 """
 
 from verification.report.page import write

@@ -4,27 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import groupby
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from verification.checks import ORDER_SLACK
-from verification.order import FLOOR
+from verification.report.diagrams import model_words
 from verification.report.tables import scientific
 
 if TYPE_CHECKING:
     from verification.order import Order
     from verification.workprecision import Study
 
-__all__ = ["remarks"]
+__all__ = ["REASONS", "deviations", "literal_remark"]
 
 # Why a family does not show the order of theory, where that is known.
 REASONS = {
     "rollup": "the moment is constant along the rod, so planar angles are exact and the tip errs only by the "
     "Gauss rule, with order 2k + 2, which in space the interpolated quaternions keep for odd k",
-    "elastica": "",
-    "follower": "",
-    "heavy": "",
-    "bend45": "",
-    "parabola": "",
 }
 LITERAL = (
     "Eq. 16 as printed measures the elongation along the tangent of node i, where an arc of curvature κ and length l "
@@ -33,23 +29,16 @@ LITERAL = (
 )
 
 
-def remarks(studies: Iterable[Study]) -> list[str]:
-    """One sentence for every case in which an observed order is not that of theory.
+def deviations(studies: Iterable[Study]) -> list[str]:
+    """What is seen where an observed order is not that of theory, one clause a study.
 
     Args:
-        studies: Grouped by case.
+        studies: Of one case.
 
     Returns:
-        Sentences.
+        Clauses.
     """
-    found = []
-    for title, group in groupby(studies, key=lambda s: s.title):
-        members = list(group)
-        clauses = [clause for study in members if (clause := deviation(study))]
-        if clauses:
-            reason = REASONS[members[0].case.partition("-")[0]]
-            found.append(f"{title}: " + ", ".join(clauses) + (f"; {reason}." if reason else "."))
-    return found
+    return [clause for study in studies if (clause := deviation(study))]
 
 
 def literal_remark(studies: Iterable[Study]) -> str:
@@ -58,7 +47,7 @@ def literal_remark(studies: Iterable[Study]) -> str:
     for title, group in groupby(studies, key=lambda s: s.title):
         by_model = {s.model: s for s in group}
         chord, paper = by_model.get("discrete chord"), by_model.get("discrete paper")
-        if chord is not None and paper is not None:
+        if chord is not None and paper is not None and chord.records[-1].error > chord.floor:
             ratio = paper.records[-1].error / chord.records[-1].error
             pairs.append(f"{title}: order {order_words(paper.tip)}, error {ratio:.3g} times that of the chord form")
     return f"The literal Eq. 16 ({'; '.join(pairs)}). {LITERAL}." if pairs else ""
@@ -69,25 +58,29 @@ def deviation(study: Study) -> str:
     parts = [
         f"{name} {seen}"
         for name, order in (("tip", study.tip), ("centreline", study.centreline))
-        if order is not None and (seen := instead(order, study.records[-1].elements))
+        if order is not None and (seen := instead(order, study.records[-1].elements, study.floor))
     ]
-    return f"{study.model} {' and '.join(parts)}" if parts else ""
+    return f"{model_words(study.model)}: {' and '.join(parts)}" if parts else ""
 
 
-def instead(order: Order, finest: int) -> str:
+def instead(order: Order, finest: int, floor: float) -> str:
     """The deviation of one order in words; `finest` is the number of elements it could have been read off."""
     if order.observed is None:
+        if not isfinite(order.worst):
+            return "without order, as nothing converged"
         worst = scientific(order.worst)
-        if order.worst < FLOOR:
-            return f"exact to round-off ({worst})"
-        return f"at round-off from the second mesh on ({worst} on the first)" if order.worst < 1e-9 else "without order"
+        if order.worst < floor:
+            return f"exact to round-off or to the reference ({worst})"
+        return f"there from the second mesh on ({worst} on the first)"
     if abs(order.observed - order.theory) <= ORDER_SLACK:
         return ""
     pair = order.meshes or (finest, finest)
-    coarse = "" if finest in pair else f" (between {pair[0]} and {pair[1]} elements; beyond is round-off)"
+    coarse = (
+        "" if finest in pair else f" (between {pair[0]} and {pair[1]} elements; beyond is round-off or the reference)"
+    )
     return f"{order.observed:.1f} instead of {order.theory}{coarse}"
 
 
 def order_words(order: Order) -> str:
     """An order, or that there is none to see."""
-    return "round-off" if order.observed is None else f"{order.observed:.2f}"
+    return "hidden" if order.observed is None else f"{order.observed:.2f}"

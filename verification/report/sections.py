@@ -4,20 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import groupby
+from math import isfinite, log10
 from typing import TYPE_CHECKING
 
-from verification.report.tables import Column, Group, Mark, Row, count, ms, power, scientific, table
-from verification.suite import STANDARD
+from verification.reach import TARGETS
+from verification.report.canvas import power_of_ten
+from verification.report.diagrams import model_words
+from verification.report.tables import Column, Group, Link, Mark, Row, count, power, scientific, table
 
 if TYPE_CHECKING:
-    from verification.order import Order
-    from verification.suite import Report
-    from verification.workprecision import Record, Study
+    from pathlib import Path
 
-__all__ = ["all_cases", "crosschecks", "errors", "machine", "one_step", "orders", "references"]
+    from verification.checks import Check
+    from verification.order import Order
+    from verification.reach import Reach
+    from verification.suite import Report
+    from verification.workprecision import Study
+
+__all__ = ["crosschecks", "errors", "laws", "machine", "observed", "one_step", "orders", "reached"]
 
 NUMBER = "number"
 KINEMATICS = ("planar", "spatial")
+
+
+def anchor(report: Report, case: str) -> str:
+    """Where a case stands on the page; empty where it has no section of its own."""
+    return f"#case-{case}" if any(s.name == case for s in report.statements) else ""
 
 
 def errors(report: Report) -> str:
@@ -31,8 +43,8 @@ def errors(report: Report) -> str:
     )
     rows: list[Row] = []
     checks = [c for c in report.checks if c.quantity.startswith("error")]
-    for title, group in groupby(checks, key=lambda c: c.title):
-        rows.append(Group(title))
+    for (case, title), group in groupby(checks, key=lambda c: (c.case, c.title)):
+        rows.append(Group(title, anchor(report, case)))
         for mesh, pair in groupby(group, key=lambda c: c.mesh):
             both = {c.model.rpartition(" ")[2]: c for c in pair}
             limit = scientific(max(c.limit for c in both.values()), 0)
@@ -51,17 +63,26 @@ def orders(report: Report) -> str:
         *(Column(k, kind=NUMBER) for k in KINEMATICS),
         Column(""),
     )
-    missed = {(c.title, c.model) for c in report.checks if c.quantity.startswith("order") and not c.holds}
+    short: dict[tuple[str, str], Check] = {
+        (c.case, c.model): c for c in report.checks if c.quantity.startswith("order") and not c.holds
+    }
     rows: list[Row] = []
-    for title, group in groupby(report.headlines, key=lambda s: s.title):
-        rows.append(Group(title))
+    for (case, title), group in groupby(report.deep, key=lambda s: (s.case, s.title)):
+        rows.append(Group(title, f"#case-{case}"))
         studies = sorted(group, key=lambda s: (s.family, s.degree))
         for name, pair in groupby(studies, key=lambda s: s.model.removesuffix(" planar").removesuffix(" spatial")):
             both = {s.model.rpartition(" ")[2] if s.family == "continuum" else "spatial": s for s in pair}
-            holds = not any((title, s.model) in missed for s in both.values())
+            found = [short[case, s.model] for s in both.values() if (case, s.model) in short]
             cells = (*order_cells(both, "tip"), *order_cells(both, "centreline"))
-            rows.append((name, *cells, Mark(holds, bad="falls short")))
+            rows.append((model_words(name), *cells, order_mark(found)))
     return table(columns, rows)
+
+
+def order_mark(short: list[Check]) -> Mark:
+    """A miss, a deviation that the case explains, or neither."""
+    if any(c.missed for c in short):
+        return Mark(False, bad="falls short")
+    return Mark(not short, bad="explained at the case", severity="slow")
 
 
 def order_cells(both: dict[str, Study], quantity: str) -> Iterator[str]:
@@ -74,8 +95,8 @@ def order_cells(both: dict[str, Study], quantity: str) -> Iterator[str]:
 
 
 def observed(order: Order) -> str:
-    """An order, or that round-off hides it."""
-    return "round-off" if order.observed is None and order.worst < 1e-9 else power(order.observed)
+    """An order, or that what cannot be told apart from the reference hides it."""
+    return "hidden" if order.observed is None and isfinite(order.worst) else power(order.observed)
 
 
 def one_step(report: Report) -> str:
@@ -90,14 +111,14 @@ def one_step(report: Report) -> str:
         Column(""),
     )
     rows: list[Row] = []
-    for title, group in groupby(report.one_step, key=lambda r: r.title):
+    for (case, title), group in groupby(report.one_step, key=lambda r: (r.case, r.title)):
         both = {r.kinematics: r for r in group}
         in_order = [both.get(k) for k in KINEMATICS]
         some = next(iter(both.values()))
         failure = "; ".join(r.failure for r in both.values() if r.failure)
         rows.append(
             (
-                title,
+                Link(anchor(report, case), title),
                 some.mesh,
                 count(some.limit),
                 *("–" if r is None else count(r.iterations) for r in in_order),
@@ -109,93 +130,87 @@ def one_step(report: Report) -> str:
     return table(columns, rows)
 
 
-def crosschecks(report: Report) -> str:
-    """Both models against each other."""
+def crosschecks(report: Report, cases: set[str]) -> str:
+    """Both models against each other on some cases; empty where there is none."""
     columns = (
-        Column("discrete elements", kind=NUMBER),
-        Column("difference of the tips", "/L", NUMBER),
+        Column("case"),
+        Column("elements", "discrete", NUMBER),
+        Column("difference", "/L", NUMBER),
         Column("discrete error", "estimated", NUMBER),
         Column("continuum error", "estimated", NUMBER),
+        Column("elongation", "of the discrete model", NUMBER),
         Column("ratio", kind=NUMBER),
         Column(""),
     )
+    chosen = [r for r in report.crosschecks if r.case in cases]
     rows: list[Row] = []
-    for title, group in groupby(report.crosschecks, key=lambda r: r.title):
-        rows.append(Group(title))
-        for r in group:
-            total = r.discrete_error + r.continuum_error
-            ratio = power(r.difference / total) if total > 1e-9 else "–"
-            figures = map(scientific, (r.difference, r.discrete_error, r.continuum_error))
-            rows.append((count(r.elements), *figures, ratio, Mark(r.holds, bad=r.failure or "unexplained")))
+    for (case, title), group in groupby(chosen, key=lambda r: (r.case, r.title)):
+        for k, r in enumerate(group):
+            name = Link("", "") if k else Link(anchor(report, case), title)
+            ratio = power(r.difference / r.estimate) if r.estimate > 10.0 * r.tolerance else "–"
+            figures = map(scientific, (r.difference, r.discrete_error, r.continuum_error, r.elongation))
+            rows.append((name, count(r.elements), *figures, ratio, Mark(r.holds, bad=r.failure or "unexplained")))
+    return table(columns, rows) if rows else ""
+
+
+def laws(report: Report, tests: Path | None) -> str:
+    """Laws against their bounds, with links to the tests that assert them on more inputs."""
+    columns = (
+        Column("law and model"),
+        Column("violation", "relative", NUMBER),
+        Column("bound", kind=NUMBER),
+        Column(""),
+        Column("asserted by"),
+    )
+    rows: list[Row] = []
+    for _, group in groupby(report.laws, key=lambda r: r.name):
+        members = list(group)
+        first = members[0]
+        words = first.statement[:1].lower() + first.statement[1:].rstrip(".")
+        rows.append(Group(f"{first.title}: {words}"))
+        file, _, test = first.test.partition("::")
+        address = "" if tests is None else f"{tests / file}"
+        for r in members:
+            where = Link(address, f"{file.rpartition('/')[2]}::{test}")
+            rows.append((model_words(r.model), scientific(r.found), scientific(r.bound, 0), Mark(r.holds), where))
     return table(columns, rows)
 
 
-def all_cases(report: Report) -> str:
-    """Every case by every model that poses it, on the standard mesh."""
+def reached(report: Report, cases: set[str]) -> str:
+    """Seconds to given errors, some cases by every model."""
     columns = (
         Column("model"),
-        Column("elements", kind=NUMBER),
-        Column("unknowns", kind=NUMBER),
-        Column("error", "tip", NUMBER),
+        *(Column(f"to {power_of_ten(round(log10(target)))}", "s, on", NUMBER) for target in TARGETS),
+        Column("least error", kind=NUMBER),
         Column("order", "tip", NUMBER),
         Column("theory", kind=NUMBER),
-        Column("iterations", kind=NUMBER),
-        Column("steps", kind=NUMBER),
-        Column("solve", "ms", NUMBER),
-        Column("setup", "ms", NUMBER),
-        Column("compile", "ms, once", NUMBER),
-        Column(""),
     )
+    titles = {s.name: s.title for s in report.statements}
     rows: list[Row] = []
-    for title, group in groupby(report.cases, key=lambda s: s.title):
-        rows.append(Group(title))
-        rows += [case_row(s, report.compile_ms(s.model)) for s in group]
+    for case, group in groupby((r for r in report.reaches if r.case in cases), key=lambda r: r.case):
+        rows.append(Group(titles[case], f"#case-{case}"))
+        for model, members in groupby(group, key=lambda r: r.model):
+            rows.append(reached_row(report, case, model, list(members)))
     return table(columns, rows)
 
 
-def case_row(study: Study, compile_ms: float | None) -> Row:
-    """The timed mesh of a study, or, where nothing converged, its finest."""
-    r: Record = next((r for r in study.records if r.timing is not None), study.records[-1])
-    t = r.timing
-    times = map(ms, (t.solve, t.setup, compile_ms) if t else 3 * (None,))
-    return (
-        study.model,
-        count(r.elements),
-        count(r.dofs),
-        scientific(r.error),
-        observed(study.tip),
-        count(study.tip.theory),
-        count(r.iterations),
-        count(r.steps),
-        *times,
-        Mark(r.failure is None, good="converged", bad=r.failure or ""),
-    )
+def reached_row(report: Report, case: str, model: str, members: list[Reach]) -> Row:
+    """One model of one case."""
+    studies = [s for s in report.studies if s.case == case and fits(s, model)]
+    best = min(studies, key=lambda s: s.smallest)
+    cells = (f"{seconds(r.seconds)} · {r.mesh}" if r.seconds is not None else "not reached" for r in members)
+    return (model, *cells, scientific(best.smallest), observed(best.tip), count(best.tip.theory))
 
 
-def references(report: Report) -> str:
-    """Where every reference comes from."""
-    columns = (
-        Column("case"),
-        Column("reference"),
-        Column("x", kind=NUMBER),
-        Column("y", kind=NUMBER),
-        Column("z", kind=NUMBER),
-        Column("digits trusted", kind=NUMBER),
-        Column("two methods differ by", kind=NUMBER),
-        Column("method and source", kind="prose"),
-    )
-    rows: list[Row] = [
-        (
-            title,
-            r.id,
-            *(f"{v:.12g}".replace("-", "−") for v in r.value),
-            count(r.digits_trusted),
-            scientific(r.agreement, 0),
-            f"{r.method}. {r.source}",
-        )
-        for title, r in report.references.items()
-    ]
-    return table(columns, rows)
+def fits(study: Study, model: str) -> bool:
+    """Whether a study is of a model as `reach` names it."""
+    family, _, kinematics = model.partition(" ")
+    return study.family == family and study.model.endswith(kinematics or "chord")
+
+
+def seconds(value: float) -> str:
+    """Two digits: 0.0042."""
+    return f"{value:.2g}" if value < 1.0 else f"{value:.1f}"
 
 
 def machine(report: Report) -> str:
@@ -210,8 +225,3 @@ def machine(report: Report) -> str:
         **m.versions,
     }
     return table((Column("what"), Column("value", kind="prose")), facts.items())
-
-
-def standard() -> str:
-    """The standard meshes in words."""
-    return f"{STANDARD['continuum']} continuum elements (a turn), {STANDARD['discrete']} discrete ones"

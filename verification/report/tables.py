@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from html import escape
 from math import isfinite
 
-__all__ = ["Column", "Group", "Mark", "Row", "count", "ms", "power", "scientific", "table"]
+__all__ = ["Column", "Group", "Link", "Mark", "Row", "Swatch", "link", "count", "ms", "power", "scientific", "table"]
 
 DASH = "–"
 
@@ -35,7 +35,7 @@ class Mark:
         holds: Whether it is good.
         good: Word for that.
         bad: Word for a miss.
-        severity: Class of a miss: "bad", or "slow" where the machine may be to blame.
+        severity: Class of a miss: "bad", or "slow" where the machine may be to blame or the case says why.
     """
 
     holds: bool
@@ -52,13 +52,54 @@ class Mark:
 
 
 @dataclass(frozen=True)
+class Link:
+    """Words that lead somewhere.
+
+    Args:
+        target: Address; empty: words only.
+        words: Shown.
+    """
+
+    target: str
+    words: str
+
+    @property
+    def html(self) -> str:
+        """An anchor."""
+        return link(self.target, self.words) if self.target else escape(self.words)
+
+
+@dataclass(frozen=True)
+class Swatch:
+    """A name beside the line that stands for it in the diagrams.
+
+    Args:
+        kind: Class of the line.
+        dashed: Whether it is.
+        words: The name.
+    """
+
+    kind: str
+    dashed: bool
+    words: str
+
+    @property
+    def html(self) -> str:
+        """A short line and the name."""
+        dashed = " dashed" if self.dashed else ""
+        line = f'<polyline class="{self.kind}{dashed}" points="1,6 15,6 29,6"/>'
+        return f'<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true">{line}</svg>{escape(self.words)}'
+
+
+@dataclass(frozen=True)
 class Group:
-    """A heading within a table."""
+    """A heading within a table, which may lead somewhere."""
 
     title: str
+    target: str = ""
 
 
-Row = Sequence[str | Mark] | Group
+Row = Sequence[str | Mark | Link | Swatch] | Group
 
 
 def table(columns: Sequence[Column], rows: Iterable[Row]) -> str:
@@ -83,13 +124,20 @@ def _head(column: Column) -> str:
 
 def _row(columns: Sequence[Column], row: Row) -> str:
     if isinstance(row, Group):
-        return f'<tr class="group"><td colspan="{len(columns)}">{escape(row.title)}</td></tr>'
+        return (
+            f'<tr class="group"><td colspan="{len(columns)}"><span>{Link(row.target, row.title).html}</span></td></tr>'
+        )
     missed = [cell.severity for cell in row if isinstance(cell, Mark) and not cell.holds]
     cells = "".join(
-        f'<td class="{column.kind}">{cell.html if isinstance(cell, Mark) else escape(cell)}</td>'
+        f'<td class="{column.kind}">{escape(cell) if isinstance(cell, str) else cell.html}</td>'
         for column, cell in zip(columns, row, strict=True)
     )
     return f'<tr class="{missed[0]}">{cells}</tr>' if missed else f"<tr>{cells}</tr>"
+
+
+def link(target: str, words: str) -> str:
+    """An anchor."""
+    return f'<a href="{escape(target)}">{escape(words)}</a>'
 
 
 def scientific(value: float | None, digits: int = 1) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from verification.references import peers_measured
+from verification.references import peers, peers_measured
+from verification.report.diagrams import LETTERS
 from verification.report.tables import Column, Group, Mark, Row, ms, scientific, table
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ def speeds(report: Report) -> str:
 def published(report: Report) -> str:
     """What other people's solvers take for the same problems."""
     columns = (
+        Column("", "in the figure"),
         Column("solver"),
         Column("kinematics"),
         Column("error", kind=NUMBER),
@@ -56,6 +58,9 @@ def published(report: Report) -> str:
         Column("ours to that error", "ms, min, in the diagram above", NUMBER),
         Column("by"),
     )
+    letters = {
+        p: letter for problem in ("elastica", "bend") for p, letter in zip(peers(problem), LETTERS, strict=False)
+    }
     rows: list[Row] = []
     for s in report.speeds:
         if s.peers:
@@ -63,7 +68,7 @@ def published(report: Report) -> str:
         for p in s.peers:
             best = quickest(report, s.record.case, p.error, p.kinematics)
             ours = ("–", "–") if best is None else (ms(best[0]), best[1])
-            rows.append((p.who, p.kinematics, scientific(p.error, 0), ms(p.ms), *ours))
+            rows.append((letters[p], p.who, p.kinematics, scientific(p.error, 0), ms(p.ms), *ours))
     note = f"Others were measured in {peers_measured()}; they were not repeated in this run."
     return table(columns, rows) + f'<p class="soft">{note}</p>'
 
@@ -73,7 +78,7 @@ def quickest(report: Report, case: str, error: float, kinematics: str) -> tuple[
     family = case.partition("-")[0]
     reached = [
         (r.timing.solve_min, f"{r.elements} × P{s.degree}")
-        for s in report.headlines
+        for s in report.deep
         if s.case.startswith(family) and s.model.endswith(kinematics)
         for r in s.records
         if r.timing is not None and r.error <= error

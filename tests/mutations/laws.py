@@ -1,0 +1,89 @@
+"""Laws that faults break."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+import dolfinrod as dr
+from tests.mutations import measures as by
+from tests.mutations.measures import Solve
+from tests.mutations.scenes import CURVED, TWISTED, loaded_in_a_plane, loaded_in_every_way
+from tests.scenes import KIRCHHOFF, SKEW, followed
+from verification.case import SKEW as CASE_POSE
+from verification.cases import bend45, elastica, follower, rollup
+
+
+@dataclass(frozen=True)
+class Law:
+    """Something that every correct model obeys.
+
+    Args:
+        statement: What holds, in words.
+        measure: Solves, and returns by how much it does not hold.
+        bound: What that may be.
+    """
+
+    statement: str
+    measure: Callable[[Solve], float]
+    bound: float
+
+    def holds(self, solve: Solve) -> tuple[bool, float]:
+        """Whether it holds for a solver, and the number measured; infinite where there is no answer at all."""
+        try:
+            found = self.measure(solve)
+        except dr.NotConverged:
+            found = np.inf
+        return found <= self.bound, found
+
+
+LAWS = {
+    "stretch of a pulled rod": Law("u = F L/EA", by.stretch, 1e-8),
+    "small deflection": Law(
+        "w = F L³/3EI + F L/GA in both planes of a section, and nothing else", by.small_deflection, 1e-5
+    ),
+    "small deflection under a line load": Law("w = q (b³/6 − b⁴/24)/EI", by.small_line_load, 1e-2),
+    "small twist": Law("θ = T L/GJ", by.small_twist, 1e-6),
+    "string": Law("under tension w = F/T (L − tanh(kL)/k), k² = T/EI", by.string, 1e-2),
+    "a curved rod at rest": Law("an arc without load stays as it is", partial(by.rest, CURVED), 1e-10),
+    "a twisted rod at rest": Law("a helix with pretwist stays as it is", partial(by.rest, TWISTED), 1e-10),
+    "objectivity": Law("a moved scene has the moved answer", partial(by.objectivity, loaded_in_every_way), 1e-9),
+    "objectivity in a plane": Law("the same for a plane scene", partial(by.objectivity, loaded_in_a_plane), 1e-9),
+    "balance": Law("the clamp answers with the force and moment of all loads", by.balance, 1e-9),
+    "weight": Law("each clamp carries the weight of its rod", partial(by.weights, "gravity"), 1e-9),
+    "line load": Law("each clamp carries the whole line load", partial(by.weights, "line"), 1e-9),
+    "force along the rod": Law("R n is the dead tip force everywhere", by.force_along, 1e-9),
+    "moment along the rod": Law("R m is the arm times the dead tip force everywhere", by.moment_along, 1e-9),
+    "orthonormal frames": Law("RᵀR = 1 at all nodes", by.orthonormal, 1e-12),
+    "half way": Law("at half of the time the answer is that to half of the loads and displacements", by.half_way, 1e-9),
+    "number of steps": Law("one load step or eight end the same", by.same_in_steps, 1e-9),
+    "planar is spatial": Law("a plane scene has one answer in the plane and in space", by.same_in_space, 1e-5),
+    "order of rotations": Law("prescribed rotations follow each other in the order listed", by.composition, 1e-12),
+    "energy is work": Law("U = ½ F·u for a small force", by.work, 1e-6),
+    "mirror": Law("mirrored loads have the mirrored answer", by.mirror, 1e-10),
+    "quadratic convergence": Law(
+        "loads of every kind in space, all at once: at most 7 iterations",
+        partial(by.iterations, loaded_in_every_way(SKEW)),
+        7,
+    ),
+    "quadratic convergence under a follower": Law(
+        "α = 5 at once: at most 8 iterations", partial(by.iterations, followed(KIRCHHOFF, 5.0)), 8
+    ),
+    "quadratic convergence of the roll-up": Law(
+        "one turn in space at once: at most 8 iterations",
+        partial(by.iterations, rollup.rolled(1.0).scene(CASE_POSE)),
+        8,
+    ),
+    "inertia": Law("the energy of a rotation is the same in section and global axes, Eq. 10", by.inertia, 1e-12),
+    "order": Law("the tip of the elastica converges with h⁴ for k = 2", by.lost_order, 0.3),
+    "case follower-5": Law("within three digits of the reference", partial(by.error, follower.inextensible(5.0)), 3e-3),
+    "accuracy": Law("for k = 2 the elastica is in space no less accurate than in the plane", by.lost_accuracy, 1.0),
+    "case elastica-10-shear": Law(
+        "within four digits of the reference", partial(by.error, elastica.shearable(10.0)), 1e-4
+    ),
+    "case rollup-0.5": Law("the same", partial(by.error, rollup.rolled(0.5)), 3e-3),
+    "case bend45-300-kirchhoff": Law("the same", partial(by.error, bend45.bend(300.0, kirchhoff=True)), 3e-3),
+}

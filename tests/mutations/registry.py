@@ -1,0 +1,14 @@
+"""The faults that the suite must notice, and what notices each of them."""
+
+from __future__ import annotations
+
+from tests.mutations import continuum_mutations, discrete_mutations, form_mutations
+
+__all__ = ["MUTATIONS", "mutations"]
+
+MUTATIONS = (*discrete_mutations.MUTATIONS, *continuum_mutations.MUTATIONS, *form_mutations.MUTATIONS)
+
+
+def mutations() -> list[tuple[str, str, str]]:
+    """Rows for a report: name, what the fault is, what kills it."""
+    return [(m.name, m.fault, f"{m.law} ({m.solver})") for m in MUTATIONS]

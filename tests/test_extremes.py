@@ -1,0 +1,82 @@
+"""Units from 1e-12 to 1e12, one mesh of ten thousand elements and one of two: the same answers."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pytest
+
+import discrete
+import dolfinrod as dr
+from tests.scenes import SKEW
+
+MODELS = {
+    "planar": partial(dr.solve, elements=4, degree=3, kinematics=dr.Planar()),
+    "spatial": partial(dr.solve, elements=4, degree=3, kinematics=dr.Spatial()),
+    "discrete": partial(discrete.solve, elements=20),
+}
+# Bisshopp and Drucker 1945: tip of the inextensible cantilever, P L²/EI = 10 (case A1-inext-alpha10 of the references).
+ELASTICA = np.array([1.0 - 0.5549955977537513, 0.8106090248802964, 0.0])
+RIGID = dr.Section(GJ=0.8, EI=1.0, rigid={"shear", "extension"})
+
+
+def arc_in_units(length: float, force: float) -> dr.Scene:
+    """A curved rod under a follower force, a moment, a line load and a moved end; 1 m is `length`, 1 N is `force`."""
+    EI = force * length**2
+    section = dr.Section(EA=900.0 * force, GA=(400.0 * force, 400.0 * force), GJ=0.7 * EI, EI=EI)
+    rod = dr.Rod.arc(
+        radius=length,
+        angle=1.2,
+        section=section,
+        start=SKEW.origin * length,
+        direction=SKEW.turned((1, 0, 0)),
+        towards=SKEW.turned((0, 1, 0)),
+    )
+    loads = [
+        dr.FollowerForce((force, 3.0 * force, 0.0), at="end"),
+        dr.PointMoment(SKEW.turned((0, 0, 2.0 * force * length)), at=0.6 * length),
+        dr.LineForce(SKEW.turned((2.0 * force / length, -force / length, 0))),
+    ]
+    moved = dr.Prescribed("start", displacement=SKEW.turned((0.1 * length, 0.05 * length, 0)), rotation=(0, 0, 0))
+    return dr.Scene([rod], [moved], loads)
+
+
+@pytest.mark.parametrize("solve", MODELS.values(), ids=MODELS)
+@pytest.mark.parametrize("length", [1e-12, 1.0, 1e12])
+@pytest.mark.parametrize("force", [1e-12, 1e12])
+def test_units_change_nothing_but_the_last_digits(solve, length, force):
+    here, there = solve(arc_in_units(1.0, 1.0)), solve(arc_in_units(length, force))
+    a, b = here.rods[0], there.rods[0]
+    assert there.statistics.newton_iterations == here.statistics.newton_iterations
+    np.testing.assert_allclose(b.r[-1] / length, a.r[-1], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(b.n[-1] / force, a.n[-1], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(b.m[-1] / (force * length), a.m[-1], rtol=0, atol=1e-9)
+    assert there.energy["strain"][-1] / (force * length) == pytest.approx(here.energy["strain"][-1], rel=1e-11)
+
+
+def cantilever() -> dr.Scene:
+    return dr.Scene(
+        [dr.Rod.straight(length=1.0, section=RIGID)],
+        [dr.Clamp("start")],
+        [dr.PointForce((0.0, 10.0, 0.0), at="end")],
+    )
+
+
+@pytest.mark.parametrize("kinematics", [dr.Planar(), dr.Spatial()], ids=["planar", "spatial"])
+@pytest.mark.parametrize(("elements", "degree", "error"), [(2, 5, 1e-6), (10_000, 1, 3e-9)])
+def test_the_elastica_on_two_and_on_ten_thousand_elements(kinematics, elements, degree, error):
+    result = dr.solve(cantilever(), elements=elements, degree=degree, kinematics=kinematics)
+    assert np.linalg.norm(result.tip - ELASTICA) < error
+    assert result.statistics.newton_iterations == 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kinematics", [dr.Planar(), dr.Spatial()], ids=["planar", "spatial"])
+def test_ten_thousand_cubic_elements_keep_twelve_digits(kinematics):
+    assert np.linalg.norm(dr.solve(cantilever(), elements=10_000, kinematics=kinematics).tip - ELASTICA) < 1e-12
+
+
+def test_the_elastica_on_ten_thousand_discrete_elements():
+    """The stand-in EA = 1e8 EI/L² for no extension, not the mesh, is what is left."""
+    assert np.linalg.norm(discrete.solve(cantilever(), elements=10_000).tip - ELASTICA) < 2e-7

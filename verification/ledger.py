@@ -1,0 +1,152 @@
+"""Finished work kept on disk, so that a verification that was stopped goes on where it was.
+
+One JSON file a unit, written beside its place and moved there whole. Its folder is named by what all numbers depend on,
+machine, versions and source, its own name by the unit's parameters. Whatever of that changes, the unit is done again;
+what was found by another source is thrown away.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from verification.checks import Check
+from verification.laws import LawRow
+from verification.machine import Machine
+from verification.onestep import OneStep
+from verification.order import Order
+from verification.references import Peer
+from verification.shape import Shape
+from verification.speed import Speed
+from verification.workprecision import Record, Study, Timing
+
+__all__ = ["Ledger", "Unit", "source_hash"]
+
+Row = Check | LawRow | OneStep | Shape | Speed | Study
+RECORDS: dict[str, Any] = {
+    kind.__name__: kind for kind in (Check, LawRow, OneStep, Order, Peer, Record, Shape, Speed, Study, Timing)
+}
+PACKAGES = ("dolfinrod", "discrete", "verification")
+NAME = re.compile("[0-9a-f]{24}")
+# What numbers can depend on; the page is written anew every time.
+SOURCES, READERS = ("*.py", "*.json"), ("verification/report/",)
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A piece of work that is done whole or not at all.
+
+    Args:
+        topic: Of the report: "study", "shape", "limit", "one step", "speed" or "law".
+        words: What is solved, for people.
+        parameters: What sets it apart from others of its topic; strings and numbers.
+        work: Solves it; returns a row, or rows, for the report.
+    """
+
+    topic: str
+    words: str
+    parameters: tuple[str | int | float, ...]
+    work: Callable[[], Row | tuple[Row, ...]]
+
+
+class Ledger:
+    """Rows of finished units in a folder.
+
+    Args:
+        folder: Made where it does not exist.
+        machine: On which this runs.
+        fresh: Whether to ignore what is there.
+    """
+
+    def __init__(self, folder: Path, machine: Machine, *, fresh: bool = False) -> None:
+        self._fresh = fresh
+        facts = (machine.processor, machine.cores, machine.threads, machine.system, sorted(machine.versions.items()))
+        self._folder = folder / name_of([*facts, source_hash()])
+        self._folder.mkdir(parents=True, exist_ok=True)
+        for old in folder.iterdir():
+            if old != self._folder and NAME.fullmatch(old.name):
+                shutil.rmtree(old)
+
+    def recall(self, unit: Unit) -> tuple[Row, ...] | None:
+        """What an earlier run found; None where the unit is still to be done.
+
+        A file that cannot be read as such a record counts as none.
+        """
+        if self._fresh:
+            return None
+        try:
+            found = decode(json.loads(self._place(unit).read_text(encoding="utf-8"))["rows"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+        return found if isinstance(found, tuple) else None
+
+    def keep(self, unit: Unit, rows: tuple[Row, ...]) -> None:
+        """Write the rows of a unit, whole or not at all."""
+        place = self._place(unit)
+        record = {"topic": unit.topic, "words": unit.words, "parameters": unit.parameters, "rows": encode(rows)}
+        draft = place.with_suffix(f".{os.getpid()}")
+        draft.write_text(json.dumps(record, ensure_ascii=False, allow_nan=False), encoding="utf-8")
+        draft.replace(place)
+
+    def _place(self, unit: Unit) -> Path:
+        return self._folder / f"{name_of([unit.topic, unit.parameters])}.json"
+
+
+def name_of(facts: Any) -> str:
+    """A file name that other facts do not have."""
+    return hashlib.sha256(json.dumps(facts).encode()).hexdigest()[:24]
+
+
+def source_hash() -> str:
+    """Of every file that a number can depend on."""
+    root = Path(__file__).parents[1]
+    digest = hashlib.sha256()
+    for file in sorted(f for package in PACKAGES for kind in SOURCES for f in (root / package).rglob(kind)):
+        name = file.relative_to(root).as_posix()
+        if not name.startswith(READERS):
+            digest.update(name.encode() + b"\0" + file.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def encode(value: Any) -> Any:
+    """A record as what JSON can hold: sequences as lists, arrays, records and numbers beyond JSON by their kind."""
+    if is_dataclass(value):
+        return {"kind": type(value).__name__, **{f.name: encode(getattr(value, f.name)) for f in fields(value)}}
+    if isinstance(value, tuple | list):
+        return [encode(entry) for entry in value]
+    if isinstance(value, np.ndarray):
+        return {"kind": "array", "values": encode(value.tolist())}
+    if isinstance(value, np.generic):
+        return encode(value.item())
+    if isinstance(value, float) and not isfinite(value):
+        return {"kind": "float", "value": str(value)}
+    return value
+
+
+def decode(value: Any) -> Any:
+    """The record again, sequences as tuples.
+
+    Raises:
+        KeyError: The kind of a record is not known.
+        TypeError: A record has other fields.
+    """
+    if isinstance(value, list):
+        return tuple(decode(entry) for entry in value)
+    if not isinstance(value, dict):
+        return value
+    kind = value["kind"]
+    if kind == "array":
+        return np.asarray(decode(value["values"]), dtype=float)
+    if kind == "float":
+        return float(value["value"])
+    return RECORDS[kind](**{name: decode(entry) for name, entry in value.items() if name != "kind"})
