@@ -44,9 +44,9 @@ class Depth:
 
 
 # Of headline cases and of the others, in full and in quick runs.
-HEADLINE = Depth((1, 2, 3, 4, 5), True, True, (4, 8, 16, 32), (10, 20, 40, 80, 160, 320), 7)
+HEADLINE = Depth((1, 2, 3, 4, 5), True, True, (4, 8, 16, 32), (20, 40, 80, 160, 320), 7)
 OTHER = Depth((3, 4, 5), True, False, (4, 8, 16), (20, 40, 80, 160), 3)
-QUICK_HEADLINE = Depth((2, 3), True, True, (8, 16, 32), (20, 40, 80), 1)
+QUICK_HEADLINE = Depth((3,), True, True, (8, 16, 32), (20, 40, 80), 1)
 QUICK_OTHER = Depth((4,), False, False, (4, 8, 16), (20, 40, 80), 1)
 
 Chosen = Callable[[Case], bool]
