@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
@@ -134,5 +132,5 @@ def test_discrete_stand_in_for_a_rigid_extension_is_what_it_says():
     ]
     assert found.records[-1].error > 1e-3
     assert order(errors, (40, 80, 160), 2).observed == pytest.approx(2.0, abs=0.1)
-    assert case.note
-    assert not replace(cable.hung(1e-6, cable.EXTENSIBLE)).note
+    assert "stand-in" in case.note
+    assert "stand-in" not in cable.hung(1e-6, cable.EXTENSIBLE).note
