@@ -86,7 +86,7 @@ def test_a_pendulum_swings_out_of_every_plane(solve):
 
 @both(IN_SPACE)
 def test_a_torque_that_nothing_balances_is_refused_in_words(solve):
-    scene = dr.Scene([straight()], [dr.Pin("start"), SLIDING], [dr.PointMoment((1.0, 0.0, 0.0), at="end")])
+    scene = dr.Scene([straight()], [dr.Pin("start"), SLIDING], [dr.FollowerMoment((1.0, 0.0, 0.0), at="end")])
     with pytest.raises(dr.NotConverged, match=r"push a rod along a motion.*free to turn about \(1, 0, 0\)"):
         solve(scene)
 

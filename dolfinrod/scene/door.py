@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dolfinrod.scene.balance import pushed_away
 from dolfinrod.scene.errors import SceneError, quoted
+from dolfinrod.scene.mechanism import turned_away
 from dolfinrod.scene.scene import Scene
 
 __all__ = ["admit"]
@@ -24,6 +25,6 @@ def admit(scene: object, start: object, earlier: type) -> None:
         raise SceneError(f"must be a Scene, got {quoted(scene)}", field="scene")
     if start is not None and not isinstance(start, earlier):
         raise SceneError(f"must be a {earlier.__name__} or None, got {quoted(start)}", field="start")
-    pushed = pushed_away(scene)
+    pushed = (*pushed_away(scene), *turned_away(scene))
     if pushed:
         raise SceneError(f"must hold the rods, or loads balance: {'; '.join(pushed)}", field="supports")

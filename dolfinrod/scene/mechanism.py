@@ -6,15 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS
+from dolfinrod.scene.history import factor, kinks
+from dolfinrod.scene.loads import PointMoment
+from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS, Prescribed
 
 if TYPE_CHECKING:
     from dolfinrod.scene.scene import Scene
 
-__all__ = ["advice", "free_motions", "named", "null_space"]
+__all__ = ["advice", "free_motions", "named", "null_space", "turned_away"]
 
 # A rigid motion that supports resist with less than this fraction of their full grip is free.
 FREE = 1e-9
+# Moments that sum up to less than this fraction of their magnitudes are balanced.
+BALANCED = 1e-9
 
 
 def free_motions(scene: Scene) -> tuple[str, ...]:
@@ -38,6 +42,55 @@ def free_motions(scene: Scene) -> tuple[str, ...]:
             continue
         sentences += named(k, null_space(rows))
     return tuple(sentences)
+
+
+def turned_away(scene: Scene) -> tuple[str, ...]:
+    """Free turns of single rods that dead moments do work on in whatever shape.
+
+    With δθ = ω all along a rod, δW = ω·ΣM must vanish. Only rods that nothing but dead moments acts on are judged:
+    forces may find lever arms, and followers turn along.
+
+    Args:
+        scene: Any scene.
+
+    Returns:
+        One sentence a rod: about which axis it is free to turn and the moment about it, where that is first out of
+        balance among the times at which tables have a row and the end.
+    """
+    t_end = scene.motion.t_end
+    sentences = []
+    for k in range(len(scene.rods)):
+        loads = [load for load in scene.loads if getattr(load, "rod", None) in (None, k)]
+        moments = [load for load in loads if isinstance(load, PointMoment)]
+        if not moments or len(moments) < len(loads):
+            continue
+        axes = _span(_lasting(scene, k)[:, 3:])
+        for t in (*sorted({t for load in moments for t in kinks(load.history) if 0.0 < t < t_end}), t_end):
+            acting = np.array([factor(load.history, t, t_end) * np.asarray(load.moment) for load in moments])
+            push = acting.sum(axis=0) @ axes.T
+            net = float(np.linalg.norm(push))
+            if net > BALANCED * float(np.linalg.norm(acting, axis=1).sum()):
+                when = f" at t = {t:g}" if t < t_end else ""
+                about = _direction(push @ axes)
+                sentences.append(
+                    f"rods[{k}] is free to turn about {about}, and its loads turn it with {net:.6g} N m{when}"
+                )
+                break
+    return tuple(sentences)
+
+
+def _lasting(scene: Scene, k: int) -> np.ndarray:
+    """Rigid motions of rod k that stay free however it bends and slides in its supports, shape (n, 6)."""
+    supports = [support for support in scene.supports if support.rod in (None, k)]
+    if any(isinstance(support, Prescribed) and any(support.displacement or ()) for support in supports):
+        return np.zeros((0, 6))
+    free = null_space(_resisted(scene, k)) if supports else np.eye(6)
+    # A place that slid along f is held in e still: e·(ω × f) = ω·(f × e) must vanish.
+    rows = [np.zeros((0, 3))]
+    for support in supports:
+        held = np.array([a in support.held() for a in TRANSLATIONS])
+        rows += [np.cross(f, np.eye(3)[held]) for f in np.eye(3)[~held]]
+    return np.asarray(null_space(np.concatenate(rows) @ free[:, 3:].T) @ free)
 
 
 def named(rod: int, free: np.ndarray) -> list[str]:

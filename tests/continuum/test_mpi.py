@@ -88,7 +88,7 @@ def test_start_and_halved_steps(kinematics):
 
 
 def test_every_rank_learns_of_a_failure():
-    scene = dr.Scene([SKEW.straight(GENERAL)], [], [dr.PointMoment((0, 0, 1.0), "end")])
+    scene = dr.Scene([SKEW.straight(GENERAL)], [], [dr.FollowerMoment((0, 0, 1.0), "end")])
     with pytest.raises(dr.NotConverged) as caught:
         dr.solve(scene, comm=MPI.COMM_WORLD, elements=1, degree=2, kinematics=dr.Spatial())
     assert len(set(MPI.COMM_WORLD.allgather(caught.value.reason))) == 1

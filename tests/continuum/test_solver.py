@@ -56,7 +56,7 @@ def test_more_places_than_elements_are_refused():
 
 @both_kinematics
 def test_nothing_holds_the_rod(kinematics):
-    scene = dr.Scene([SKEW.straight(GENERAL)], [], [dr.PointMoment(SKEW.turned((0, 0, 1.0)), "end")])
+    scene = dr.Scene([SKEW.straight(GENERAL)], [], [dr.FollowerMoment((0, 0, 1.0), "end")])
     with pytest.raises(dr.NotConverged, match=r"push a rod along a motion.*rods\[0\] is held nowhere") as caught:
         dr.solve(scene, kinematics=kinematics, elements=2, degree=2)
     failure = caught.value

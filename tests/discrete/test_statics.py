@@ -163,7 +163,7 @@ def test_stepping_goes_on_where_an_earlier_result_of_the_scene_ended():
 
 @pytest.mark.parametrize("equilibrium", [True, False])
 def test_what_is_free_to_move_is_said_and_nothing_is_lost(equilibrium):
-    scene = Scene([Rod.straight(1.0, GENERAL)], [], [PointMoment((0, 0, 1), "end")])
+    scene = Scene([Rod.straight(1.0, GENERAL)], [], [FollowerMoment((0, 0, 1), "end")])
     with pytest.raises(NotConverged, match=r"rods\[0\] is held nowhere") as failure:
         discrete.solve(scene, elements=4, equilibrium=equilibrium)
     assert failure.value.t == 0.0

@@ -13,6 +13,7 @@ import discrete
 import dolfinrod as dr
 from dolfinrod.scene import SceneError
 from dolfinrod.scene.balance import pushed_away
+from dolfinrod.scene.mechanism import turned_away
 from tests.scenes import GENERAL, poses
 
 ROD = dr.Rod.straight(2.0, dr.Section(EA=1.0, GA=1.0, GJ=1.0, EI=1.0, rhoA=0.5))
@@ -109,3 +110,49 @@ def test_what_is_no_scene_is_refused(solve, thing):
 def test_what_is_no_result_is_no_start(solve, thing):
     with pytest.raises(SceneError, match=r"^start must be a Result or None, got "):
         solve(dr.Scene([ROD], [dr.Clamp("start")]), elements=2, start=thing)
+
+
+SLIDING = dr.Guide("end", free={"x", "rx", "ry", "rz"})
+TURNED = "rods[0] is free to turn about {}, and its loads turn it with {} N m"
+
+
+@pytest.mark.parametrize(
+    ("supports", "loads", "sentence"),
+    [
+        ([], [dr.PointMoment((0, 0, 2), "end")], TURNED.format("(0, 0, 1)", 2)),
+        ([dr.Pin("start")], [dr.PointMoment((3, 4, 0), "end")], TURNED.format("(0.6, 0.8, 0)", 5)),
+        ([dr.Pin("start"), SLIDING], [dr.PointMoment((1, 7, 0), "end")], TURNED.format("(1, 0, 0)", 1)),
+        (
+            [dr.Pin("start"), SLIDING],
+            [
+                dr.PointMoment((1, 0, 0), "end"),
+                dr.PointMoment((-1, 0, 0), "start", history=[(0, 0), (0.25, 1), (1, 1)]),
+            ],
+            TURNED.format("(1, 0, 0)", 0.75) + " at t = 0.25",
+        ),
+    ],
+)
+@both
+def test_a_dead_moment_about_a_free_axis_is_named(solve, supports, loads, sentence):
+    scene = dr.Scene([ROD], supports, loads)
+    assert turned_away(scene) == (sentence,)
+    with pytest.raises(SceneError, match=re.escape(sentence)):
+        solve(scene, elements=4)
+
+
+@pytest.mark.parametrize(
+    ("supports", "loads"),
+    [
+        ([dr.Clamp("start")], [dr.PointMoment((1, 2, 3), "end")]),
+        ([dr.Pin("start"), SLIDING], [dr.PointMoment((0, 2, 3), "end")]),
+        ([dr.Pin("start"), SLIDING], [dr.PointMoment((1, 0, 0), "end"), dr.PointMoment((-1, 0, 0), "start")]),
+        # A rod that sags has a lever arm for its weight.
+        ([dr.Pin("start"), dr.Pin("end")], [dr.PointMoment((1, 0, 0), "end"), dr.Gravity((0, 0, -9.81))]),
+        # A follower moment turns with its section.
+        ([dr.Pin("start")], [dr.FollowerMoment((0, 0, 1), "end")]),
+        # An end that slides across takes the line through both places along.
+        ([dr.Pin("start"), dr.Guide("end", free={"y", "rx", "ry", "rz"})], [dr.PointMoment((1, 0, 0), "end")]),
+    ],
+)
+def test_moments_that_may_be_balanced_are_left_to_the_solver(supports, loads):
+    assert turned_away(dr.Scene([ROD], supports, loads)) == ()

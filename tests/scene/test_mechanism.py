@@ -56,6 +56,6 @@ def test_a_rod_between_pins_turns_about_its_chord_wherever_it_lies(seed):
 
 @pytest.mark.parametrize("solve", [dr.solve, discrete.solve], ids=["continuum", "discrete"])
 def test_a_failure_says_what_nothing_holds(solve):
-    scene = dr.Scene([ROD], [], [dr.PointMoment((0, 1, 0), "end")])
+    scene = dr.Scene([ROD], [], [dr.FollowerMoment((0, 1, 0), "end")])
     with pytest.raises(dr.NotConverged, match=r"Nothing holds the rods completely: rods\[0\] is held nowhere\. Try"):
         solve(scene, elements=4)
