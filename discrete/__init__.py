@@ -1,10 +1,11 @@
 """The paper's discrete rod: 12×12 elements between nodes with six degrees of freedom, solved statically.
 
 Lyu, Cheng, Xu, Modeling Additional Twists of Yarn Spun by Lateral Compact Spinning with Pneumatic Groove,
-CMES 127(2), 2021. Statics: Eq. 10–22 and 2.3.3. It has no shear.
+CMES 127(2), 2021. Statics: Eq. 10–22 and 2.3.3; the masses of Eq. 1–10 for frequencies. It has no shear.
 
     import discrete
     result = discrete.solve(scene, elements=80)
+    discrete.buckling(scene, modes=3).factors, discrete.critical(scene).factors[0], discrete.modes(scene).frequencies
 
 Symbols of the paper, kept here, and the names they have in `dolfinrod`:
 
@@ -31,7 +32,8 @@ Symbols of the paper, kept here, and the names they have in `dolfinrod`:
 Importing this package loads NumPy and SciPy only.
 """
 
+from discrete.eigenmodes import buckling, critical, modes
 from discrete.element import stiffness
 from discrete.solver import solve
 
-__all__ = ["solve", "stiffness"]
+__all__ = ["buckling", "critical", "modes", "solve", "stiffness"]

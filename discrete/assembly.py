@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.linalg.lapack import dgbsv
+from scipy.linalg.lapack import dgbsv, dgbtrf, dgbtrs
 
 from discrete.unknowns import AXIAL, N_ELEMENT, N_NODE, X
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Indices = NDArray[np.int64]
 
-__all__ = ["BandedSystem", "SingularTangentError", "gather", "scatter"]
+__all__ = ["BandedSystem", "Inverse", "SingularTangentError", "gather", "scatter"]
 
 # Sub- and superdiagonals: the unknowns of an element are contiguous.
 _REACH = N_ELEMENT - 1
@@ -42,10 +43,16 @@ class BandedSystem:
         node_i: First node of each element, ascending, shape (n,).
         l: Lengths of the elements, shape (n,).
         held: Unknowns whose equation is replaced by "increment = right-hand side".
+
+    Attributes:
+        node_i: As above.
+        held: As above, and the empty places.
+        scale: Unit of each unknown in the matrix that is factorised, shape (n_unknowns,).
+        scale_elements: Products of these for the entries of each element, shape (n, 13, 13).
     """
 
     def __init__(self, n_nodes: int, node_i: Indices, l: Array, held: Indices) -> None:
-        self.n_unknowns = N_NODE * n_nodes
+        self.n_unknowns, self.node_i = N_NODE * n_nodes, node_i
         self._band = np.zeros((_ROWS, self.n_unknowns), order="F")
         item = self._band.itemsize
         self._blocks = np.lib.stride_tricks.as_strided(
@@ -59,7 +66,7 @@ class BandedSystem:
         scale[node_i + 1, X] = scale[node_i, X] = l[:, None]
         scale[node_i, AXIAL] = 1.0 / l
         own = gather(scale, node_i)
-        self._scale, self._scale_elements = scale.reshape(-1), own[:, :, None] * own[:, None]
+        self.scale, self.scale_elements = scale.reshape(-1), own[:, :, None] * own[:, None]
         last = np.setdiff1d(np.arange(n_nodes), node_i)
         self.held = np.union1d(held, last * N_NODE + AXIAL).astype(np.int64)
         row, column = np.meshgrid(self.held, np.arange(-_REACH, _REACH + 1), indexing="ij")
@@ -80,22 +87,58 @@ class BandedSystem:
         Raises:
             SingularTangentError: LAPACK met a pivot that is exactly zero, or the solution is not finite.
         """
-        scaled = tangent * self._scale_elements
         imposed = right[self.held]
-        right *= self._scale
-        right[self.held] = imposed / self._scale[self.held]
+        right *= self.scale
+        right[self.held] = imposed / self.scale[self.held]
+        self._fill(tangent)
+        _, _, solution, info = dgbsv(_REACH, _REACH, self._band, right, overwrite_ab=True, overwrite_b=True)
+        if info != 0 or not np.isfinite(solution).all():
+            raise SingularTangentError
+        solution *= self.scale
+        # Pivoting mixes these lines with stiffer ones; a held section must not creep by that round-off.
+        solution[self.held] = imposed
+        return solution
+
+    def inverse(self, tangent: Array) -> Inverse:
+        """The system factorised once, for many right-hand sides; arguments and errors as for `solve`."""
+        self._fill(tangent)
+        band, pivots, info = dgbtrf(self._band, _REACH, _REACH)
+        if info != 0 or not np.isfinite(band).all():
+            raise SingularTangentError
+        scale = self.scale.copy()
+        scale[self.held] = 1.0 / scale[self.held]
+        return Inverse(band, pivots, scale, self.scale)
+
+    def _fill(self, tangent: Array) -> None:
+        """Write the scaled matrix into the band."""
+        scaled = tangent * self.scale_elements
         self._band.fill(0.0)
         for window, elements in self._disjoint:
             self._blocks[window] += scaled[elements]
         self._band[self._lines] = 0.0
         self._band[_DIAGONAL, self.held] = 1.0
-        _, _, solution, info = dgbsv(_REACH, _REACH, self._band, right, overwrite_ab=True, overwrite_b=True)
-        if info != 0 or not np.isfinite(solution).all():
-            raise SingularTangentError
-        solution *= self._scale
-        # Pivoting mixes these lines with stiffer ones; a held section must not creep by that round-off.
-        solution[self.held] = imposed
-        return solution
+
+
+@dataclass(frozen=True, eq=False)
+class Inverse:
+    """A factorised system; lines of held unknowns impose what stands on the right.
+
+    Args:
+        band: L and U as LAPACK leaves them.
+        pivots: Exchanged lines.
+        left: Scale of the right-hand side, shape (n_unknowns,).
+        right: Scale of the solution, shape (n_unknowns,).
+    """
+
+    band: Array
+    pivots: Indices
+    left: Array
+    right: Array
+
+    def times(self, right: Array) -> Array:
+        """Solutions of several systems, shape (n_unknowns, m)."""
+        solution, _ = dgbtrs(self.band, _REACH, _REACH, right * self.left[:, None], self.pivots, overwrite_b=True)
+        return np.asarray(solution * self.right[:, None])
 
 
 def _alternating(n_nodes: int, node_i: Indices) -> tuple[tuple[slice | Indices, slice | Indices], ...]:

@@ -24,24 +24,28 @@ from discrete.assembly import SingularTangentError, gather, scatter
 from discrete.nodes import NodalSystem
 from discrete.record import Snapshot
 from discrete.rotation import cross, exp
+from discrete.state import Outcome, State
 from discrete.unknowns import SPIN, SPIN_I, SPIN_J, X_I, X_J, X
+from discrete.watch import ALIASED, WANDERING, Watch
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from discrete.loads import LoadLevel, Loads
     from discrete.mesh import Mesh
+    from discrete.nodes import Tangent
     from discrete.supports import Supports
 
     Array = NDArray[np.float64]
 
-__all__ = ["Element", "Equilibrium", "Outcome", "State"]
+__all__ = ["Element", "Equilibrium"]
 
 # Largest turn of a section or chord in one iteration [rad].
 LARGEST_TURN = 1.5
 # Increments at which the iteration has converged: radians, lengths over L, forces over the largest one or EI/L².
 TOLERANCE = 1e-9
 MOST_ITERATIONS = 60
+SETTLED = "the increments fell below the tolerance"
 
 
 class Element(Protocol):
@@ -62,44 +66,6 @@ class Element(Protocol):
     def respond(self, e: Array, E: Array, F_n: Array) -> tuple[Array, Array]:
         """End forces and their derivative."""
         ...
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Configuration of all rods, in the units of the model.
-
-    Args:
-        x: Positions of the nodes, shape (n_nodes, 3).
-        R: Section frames, shape (n_nodes, 3, 3).
-        u: Directions of the chords, shape (n, 3).
-        F_n: Axial forces, shape (n,).
-        factors: Factors of the prescribed motions that have been carried out, shape (n_prescribed,).
-    """
-
-    x: Array
-    R: Array
-    u: Array
-    F_n: Array
-    factors: Array
-
-
-@dataclass(frozen=True, eq=False)
-class Outcome:
-    """How an attempt at equilibrium ended.
-
-    Args:
-        state: Where it ended.
-        converged: Whether that is an equilibrium.
-        iterations: Linear systems solved.
-        residual: Largest out-of-balance force or moment before the last increment.
-        reason: Why it stopped, in words.
-    """
-
-    state: State
-    converged: bool
-    iterations: int
-    residual: float
-    reason: str
 
 
 class Equilibrium:
@@ -134,31 +100,42 @@ class Equilibrium:
         force, energy = self.element.measure(e, E, state.F_n)
         return Snapshot(t, state.x, state.R, force, self.loads.level(t).line, float(energy.sum()))
 
-    def find(self, state: State, t: float) -> Outcome:
+    def find(self, state: State, t: float, trust: float = np.inf) -> Outcome:
         """Equilibrium at a pseudo-time.
 
         Args:
             state: First guess.
             t: Pseudo-time.
+            trust: Largest turn that the first iteration may ask for [rad]; beyond it the guess was a bad one.
 
         Returns:
             Outcome; its state is meaningless where it did not converge.
         """
         level, goal = self.loads.level(t), self.supports.factors(t)
-        residual = np.inf
+        step, watch = _Step(state, np.inf, np.inf, np.inf, None), Watch(self.mesh.elements, state.R)
+        reason = f"no convergence in {MOST_ITERATIONS} iterations"
         for iteration in range(1, MOST_ITERATIONS + 1):
             try:
-                state, change, residual = self._iterate(state, level, goal)
+                step = self._iterate(step.state, level, goal, watch)
             except SingularTangentError as error:
-                return Outcome(state, False, iteration, residual, str(error))
-            if change < TOLERANCE:
-                return Outcome(state, True, iteration, residual, "the increments fell below the tolerance")
-            if not np.isfinite(change):
-                return Outcome(state, False, iteration, residual, "the iteration diverged")
-        return Outcome(state, False, MOST_ITERATIONS, residual, f"no convergence in {MOST_ITERATIONS} iterations")
+                reason = str(error)
+                break
+            if step.change < TOLERANCE:
+                reason = ALIASED if watch.aliased else SETTLED
+                break
+            if not np.isfinite(step.change):
+                reason = "the iteration diverged"
+                break
+            if watch.wandering:
+                reason = ALIASED if watch.aliased else WANDERING
+                break
+            if iteration == 1 and step.turn > trust:
+                reason = "the guess was farther off than the state before"
+                break
+        return Outcome(step.state, reason == SETTLED, iteration, step.residual, reason, watch.turned, step.tangent)
 
-    def _iterate(self, state: State, level: LoadLevel, goal: Array) -> tuple[State, float, float]:
-        """One Newton iteration: the new state, the largest increment and the residual before it."""
+    def _iterate(self, state: State, level: LoadLevel, goal: Array, watch: Watch) -> _Step:
+        """One Newton iteration."""
         node_i = self.mesh.elements.node_i
         E = self.mesh.elements.triads(state.R)
         e = self.element.chord(state.u, E, state.F_n)
@@ -168,17 +145,35 @@ class Equilibrium:
         end = tangent[:, X_J].copy()
         missing = level.at(state.R) - scatter(force, node_i, len(state.x))
         held = self.supports.increments(state.x, state.factors, goal)
-        d, residual = self._system.increments(tangent, missing, held, level, self.supports.guides, state.R)
+        d, residual, worked_in = self._system.increments(tangent, missing, held, level, self.supports.guides, state.R)
         own = gather(d, node_i)
         N = force[:, X_J] + np.matmul(end, own[:, :, None])[:, :, 0]
         spin = _chord_spin(state.u, own[:, X_J] - own[:, X_I] + gap, 0.5 * (own[:, SPIN_I] + own[:, SPIN_J]), e)
-        new, turn = self._moved(state, d, spin, N, goal)
+        new, turn, bite = self._moved(state, d, spin, N, goal)
+        watch.see(bite * d[:, SPIN], new.R)
         scale = max(1.0, float(np.abs(new.F_n).max()))
         change = max(turn, float(np.abs(d[:, X]).max()), float(np.abs(new.F_n - state.F_n).max()) / scale)
-        return new, change, residual
+        return _Step(new, change, turn, residual, worked_in)
 
-    def _moved(self, state: State, d: Array, spin: Array, N: Array, goal: Array) -> tuple[State, float]:
-        """State after an increment, and the largest turn asked for."""
+    def tangent(self, state: State, level: LoadLevel) -> Tangent:
+        """Tangent of a state whose chords join its nodes.
+
+        Args:
+            state: Near an equilibrium.
+            level: Loads.
+
+        Returns:
+            With all that acts at single nodes.
+        """
+        node_i = self.mesh.elements.node_i
+        e = state.x[node_i + 1] - state.x[node_i]
+        force, tangent = self.element.respond(e, self.mesh.elements.triads(state.R), state.F_n)
+        missing = level.at(state.R) - scatter(force, node_i, len(state.x))
+        held = np.zeros_like(missing)
+        return self._system.tangent(tangent, missing, held, level, self.supports.guides, state.R)
+
+    def _moved(self, state: State, d: Array, spin: Array, N: Array, goal: Array) -> tuple[State, float, float]:
+        """State after an increment, the largest turn asked for, and the part of it that was granted."""
         turn = np.sqrt(max(_largest(d[:, SPIN]), _largest(spin)))
         bite = min(1.0, LARGEST_TURN / turn) if turn > 0.0 else 1.0
         R = exp(bite * d[:, SPIN]) @ state.R
@@ -188,7 +183,18 @@ class Equilibrium:
         u = np.matmul(exp(bite * spin), state.u[:, :, None])[:, :, 0]
         u /= np.sqrt(np.einsum("ni,ni->n", u, u))[:, None]
         F_n = self.element.axial(N, u, self.mesh.elements.triads(R))
-        return State(state.x + d[:, X], R, u, F_n, factors), float(turn)
+        return State(state.x + d[:, X], R, u, F_n, factors), float(turn), float(bite)
+
+
+@dataclass(frozen=True, eq=False)
+class _Step:
+    """State after an iteration, its largest increment, the largest turn asked for, the residual and tangent before."""
+
+    state: State
+    change: float
+    turn: float
+    residual: float
+    tangent: Tangent | None
 
 
 def _largest(vectors: Array) -> float:

@@ -99,7 +99,7 @@ class Increments:
         level, goal = self._loads.level(t), self._supports.factors(t)
         missing = level.at(state.R) - scatter(self.forces(state), node_i, len(state.x))
         held = self._supports.increments(state.x, state.factors, goal)
-        d, residual = self._system.increments(tangent, missing, held, level, self._supports.guides, state.R)
+        d, residual, _ = self._system.increments(tangent, missing, held, level, self._supports.guides, state.R)
         Δ = np.matmul(axes, gather(d, node_i)[:, _ENDS, None])
         F = state.F + np.matmul(mesh.elements.k_star, Δ)[:, :, 0]
         R = exp(d[:, SPIN]) @ state.R

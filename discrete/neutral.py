@@ -19,7 +19,8 @@ from dolfinrod.scene.mechanism import named, null_space
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from discrete.equilibrium import Equilibrium, Outcome, State
+    from discrete.equilibrium import Equilibrium
+    from discrete.state import Outcome, State
 
     Array = NDArray[np.float64]
 
@@ -37,50 +38,53 @@ class PhaseCondition:
         equilibrium: Solver of the scene.
 
     Attributes:
+        equilibrium: As above.
         notes: What was held in the last state found, in words.
     """
 
     def __init__(self, equilibrium: Equilibrium) -> None:
-        self._equilibrium = equilibrium
+        self.equilibrium = equilibrium
         self.notes: tuple[str, ...] = ()
         self._needed = any(len(z) for z in self._free(equilibrium.begin()))
 
-    def find(self, state: State, t: float) -> Outcome:
+    def find(self, state: State, t: float, trust: float = np.inf) -> Outcome:
         """Equilibrium with free motions held, and from there with those released along which the loads push.
 
         Args:
             state: First guess.
             t: Pseudo-time.
+            trust: As for `Equilibrium.find`.
 
         Returns:
             How the attempt ended, all iterations counted.
         """
         if not self._needed:
-            return self._equilibrium.find(state, t)
+            return self.equilibrium.find(state, t, trust)
         motions = self._free(state)
         self._hold(state, motions)
-        found = self._equilibrium.find(state, t)
+        found = self.equilibrium.find(state, t, trust)
         while found.converged and self._drop_pushed(found.state, t, motions):
             self._hold(found.state, motions)
-            again = self._equilibrium.find(found.state, t)
+            again = self.equilibrium.find(found.state, t)
             reason = again.reason if again.converged else UNBALANCED
-            found = replace(again, iterations=found.iterations + again.iterations, reason=reason)
+            iterations, turned = found.iterations + again.iterations, found.turned + again.turned
+            found = replace(again, iterations=iterations, turned=turned, reason=reason)
         words = (words for rod, z in enumerate(motions) for words in named(rod, z))
         self.notes = tuple(f"{motion}: balanced, held by a phase condition" for motion in words)
         return found
 
     def _free(self, state: State) -> list[Array]:
         """Rigid motions (v, ω) of each rod that leave its supported unknowns where they are, shape (n, 6)."""
-        mesh = self._equilibrium.mesh
-        nodes, rows = self._equilibrium.supports.resisted(state.R)
+        mesh = self.equilibrium.mesh
+        nodes, rows = self.equilibrium.supports.resisted(state.R)
         moved = np.einsum("nij,nj->ni", _moved(state.x[nodes]), rows)
         of_rod = np.searchsorted(mesh.first, nodes, side="right") - 1
         return [null_space(moved[of_rod == rod]) for rod in range(len(mesh.s))]
 
     def _drop_pushed(self, state: State, t: float, motions: list[Array]) -> bool:
         """Take the motions in which the loads do work out of those held; whether there were any."""
-        first = self._equilibrium.mesh.first
-        loads = self._equilibrium.loads.level(t).at(state.R)
+        first = self.equilibrium.mesh.first
+        loads = self.equilibrium.loads.level(t).at(state.R)
         pushed = False
         for rod, z in enumerate(motions):
             mine = slice(first[rod], first[rod + 1])
@@ -94,15 +98,15 @@ class PhaseCondition:
 
     def _hold(self, state: State, motions: list[Array]) -> None:
         """Hold as many unknowns of one node of each rod as it has motions to hold, those that move most in them."""
-        first = self._equilibrium.mesh.first
+        first = self.equilibrium.mesh.first
         held = [np.zeros(0, dtype=np.int64)]
         for rod, z in enumerate(motions):
             # The spins of a guide stand in axes of its own.
-            node = np.setdiff1d(np.arange(first[rod], first[rod + 1]), self._equilibrium.supports.guides.nodes)[0]
+            node = np.setdiff1d(np.arange(first[rod], first[rod + 1]), self.equilibrium.supports.guides.nodes)[0]
             if len(z):
                 _, order = qr(z @ _moved(state.x[node]), mode="r", pivoting=True)
                 held.append(node * N_NODE + order[: len(z)])
-        self._equilibrium.hold(np.concatenate(held))
+        self.equilibrium.hold(np.concatenate(held))
 
 
 def _moved(x: Array) -> Array:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.assembly import BandedSystem
+from discrete.assembly import BandedSystem, Inverse
+from discrete.rotation import skew
 from discrete.unknowns import AXIAL, N_NODE, SPIN
 
 if TYPE_CHECKING:
@@ -19,7 +21,50 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Indices = NDArray[np.int64]
 
-__all__ = ["NodalSystem"]
+__all__ = ["NodalSystem", "Tangent"]
+
+
+@dataclass(frozen=True, eq=False)
+class Tangent:
+    """Tangent of a state with all that acts at single nodes worked in.
+
+    Args:
+        system: Where its unknowns stand and which of them are held.
+        elements: Of the elements, shape (n, 13, 13).
+        guided: Nodes whose spins stand in axes of their own, shape (m,).
+        axes: These axes as columns, shape (m, 3, 3).
+    """
+
+    system: BandedSystem
+    elements: Array
+    guided: Indices
+    axes: Array
+
+    def inverse(self) -> Inverse:
+        """Its factors; SingularTangentError where there are none."""
+        return self.system.inverse(self.elements)
+
+    def times(self, vectors: Array) -> Array:
+        """Products with several vectors, shape (n_unknowns, m)."""
+        node_i = self.system.node_i
+        v = vectors.reshape(-1, N_NODE, vectors.shape[1])
+        own = np.concatenate([v[node_i], v[node_i + 1, :AXIAL]], axis=1)
+        product, total = np.matmul(self.elements, own), np.zeros_like(v)
+        total[node_i] = product[:, :N_NODE]
+        total[node_i + 1, :AXIAL] += product[:, N_NODE:]
+        return total.reshape(vectors.shape)
+
+    def in_space(self, unknowns: Array) -> Array:
+        """Unknowns with all spins in global axes, shape (n_nodes, 7)."""
+        turned = unknowns.copy()
+        turned[self.guided, SPIN] = np.matmul(self.axes, turned[self.guided, SPIN, None])[:, :, 0]
+        return turned
+
+    def in_axes(self, unknowns: Array) -> Array:
+        """The reverse of `in_space`."""
+        turned = unknowns.copy()
+        turned[self.guided, SPIN] = np.matmul(turned[self.guided, None, SPIN], self.axes)[:, 0]
+        return turned
 
 
 class NodalSystem:
@@ -40,7 +85,7 @@ class NodalSystem:
 
     def increments(
         self, tangent: Array, missing: Array, held: Array, level: LoadLevel, guides: Guides, R: Array
-    ) -> tuple[Array, float]:
+    ) -> tuple[Array, float, Tangent]:
         """Solve for the increments of all nodes.
 
         Args:
@@ -52,22 +97,29 @@ class NodalSystem:
             R: Section frames, shape (n_nodes, 3, 3).
 
         Returns:
-            Increments, shape (n_nodes, 7), and the largest free out-of-balance force or moment before them.
+            Increments, shape (n_nodes, 7), the largest free out-of-balance force or moment before them, the tangent.
 
         Raises:
             SingularTangentError: There is no solution.
         """
-        if len(level.followed):
-            self._add(tangent, level.followed, slice(0, AXIAL), level.stiffness(R))
-        axes = self._guide(tangent, missing, held, guides, R) if len(guides.nodes) else None
+        worked_in = self.tangent(tangent, missing, held, level, guides, R)
         right = missing.reshape(-1)
         right[self._band.held] = 0.0
         residual = float(np.abs(np.delete(missing, AXIAL, axis=1)).max())
         right[self._band.held] = held.reshape(-1)[self._band.held]
         d = self._band.solve(tangent, right).reshape(-1, N_NODE)
-        if axes is not None:
-            d[guides.nodes, SPIN] = np.matmul(axes, d[guides.nodes, SPIN, None])[:, :, 0]
-        return d, residual
+        return worked_in.in_space(d), residual, worked_in
+
+    def tangent(
+        self, elements: Array, missing: Array, held: Array, level: LoadLevel, guides: Guides, R: Array
+    ) -> Tangent:
+        """Work what acts at single nodes into tangent and right-hand sides; arguments as for `increments`."""
+        if len(level.followed):
+            self._add(elements, level.followed, slice(0, AXIAL), level.stiffness(R))
+        axes = np.zeros((0, 3, 3))
+        if len(guides.nodes):
+            axes = self._guide(elements, missing, held, guides, R)
+        return Tangent(self._band, elements, guides.nodes, axes)
 
     def _guide(self, tangent: Array, missing: Array, held: Array, guides: Guides, R: Array) -> Array:
         """Turn the spins of guided nodes into axes whose first is the held one.
@@ -81,7 +133,7 @@ class NodalSystem:
         square = np.einsum("mi,mi->m", c, c)
         λ = -np.einsum("mi,mi->m", c, missing[guides.nodes, SPIN]) / square
         self._add(tangent, guides.nodes, SPIN, -λ[:, None, None] * slope)
-        axes = _completed(c / np.sqrt(square)[:, None])
+        axes = _completed(c / np.sqrt(square)[:, None], guides.axis)
         for node, B in zip(guides.nodes, axes, strict=True):
             for element, offset in ((self._begins[node], 0), (self._ends[node], N_NODE)):
                 if element >= 0:
@@ -100,9 +152,22 @@ class NodalSystem:
             tangent[element, at, at] += block
 
 
-def _completed(first: Array) -> Array:
-    """Right-handed orthonormal axes, as columns, with a given first one; shapes (m, 3) and (m, 3, 3)."""
-    aside = np.eye(3)[np.argmin(np.abs(first), axis=1)]
-    second = np.cross(first, aside)
-    second /= np.linalg.norm(second, axis=1)[:, None]
-    return np.stack([first, second, np.cross(first, second)], axis=2)
+def _completed(first: Array, axis: Indices) -> Array:
+    """Orthonormal axes, as columns, with a given first one: coordinate axes turned the shortest way from e_a to it.
+
+    They turn as smoothly as the first does, so that tangents of neighbouring states can be compared.
+
+    Args:
+        first: Unit vectors, shape (m, 3).
+        axis: The component a of each, shape (m,).
+
+    Returns:
+        Axes, shape (m, 3, 3).
+    """
+    order = (axis[:, None] + np.arange(3)) % 3
+    e = np.eye(3)[order]
+    v = np.cross(e[:, 0], first)
+    turning = skew(v)
+    cosine = np.einsum("mi,mi->m", e[:, 0], first)
+    Q = np.eye(3) + turning + turning @ turning / (1.0 + cosine)[:, None, None]
+    return np.asarray(Q @ np.swapaxes(e, 1, 2))

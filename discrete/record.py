@@ -7,20 +7,25 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from discrete.mesh import RIGID_EXTENSION
+from discrete.restart import stored
+from discrete.state import State
 from discrete.unknowns import SPIN_I, SPIN_J, X_J
-from dolfinrod.result import RodHistory
+from dolfinrod.result import Formulation, Result, RodHistory, Statistics
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
+    from discrete.increments import Carried
     from discrete.mesh import Mesh
-    from dolfinrod.scene import Section
+    from discrete.statics import Path
+    from dolfinrod.scene import Scene, Section
 
     Array = NDArray[np.float64]
 
-__all__ = ["Snapshot", "histories"]
+__all__ = ["Snapshot", "histories", "recorded"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +47,56 @@ class Snapshot:
     force: Array
     line: Array
     energy: float
+
+
+def recorded(
+    scene: Scene,
+    cut: Mesh,
+    path: Path[State] | Path[Carried],
+    held: Sequence[str],
+    seconds: tuple[float, float],
+    *,
+    converged: bool,
+) -> Result:
+    """The record of a path.
+
+    Args:
+        scene: The problem.
+        cut: Its mesh.
+        path: What was found.
+        held: Neutral motions that were held, in words.
+        seconds: Spent on setting up and on solving [s].
+        converged: Whether the end was reached.
+
+    Returns:
+        Complete, in SI units.
+    """
+    iterated = isinstance(path.state, State)
+    formulation = _formulation(scene, cut, held, with_force=iterated)
+    dofs = sum(formulation.unknowns.values())
+    return Result(
+        scene=scene,
+        t=np.array([kept.t for kept in path.kept]),
+        rods=histories(cut, [rod.section for rod in scene.rods], path.kept),
+        converged=converged,
+        log=tuple(path.log),
+        energy={"strain": np.array([kept.energy for kept in path.kept]) * cut.units.moment},
+        statistics=Statistics(dofs, len(path.log), path.iterations, path.iterations, 0.0, *seconds),
+        formulation=formulation,
+        state=stored(path.state, cut) if isinstance(path.state, State) else {},
+    )
+
+
+def _formulation(scene: Scene, cut: Mesh, held: Sequence[str], *, with_force: bool) -> Formulation:
+    """What entered the equations."""
+    unknowns = {"x": 3 * len(cut.x), "rotation": 3 * len(cut.x)}
+    if with_force:
+        unknowns["F_n"] = len(cut.elements.l)
+    notes = ["no shear: GA ignored, as in the paper"]
+    if any("extension" in rod.section.rigid for rod in scene.rods):
+        notes.append(f"rigid extension: EA = {RIGID_EXTENSION:.0e}·EI/L²")
+    terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads))
+    return Formulation("discrete", "spatial", unknowns, terms, (*notes, *held))
 
 
 def histories(mesh: Mesh, sections: Sequence[Section], path: Sequence[Snapshot]) -> tuple[RodHistory, ...]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.equilibrium import State
+from discrete.state import State
 from dolfinrod.scene import SceneError
 
 if TYPE_CHECKING:

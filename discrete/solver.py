@@ -7,23 +7,24 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from discrete.corotation import ChordElement
-from discrete.equilibrium import Equilibrium, State
+from discrete.equilibrium import Equilibrium
+from discrete.failure import advice
 from discrete.increments import Increments
 from discrete.loads import Loads
-from discrete.mesh import RIGID_EXTENSION, mesh
+from discrete.mesh import mesh
 from discrete.neutral import PhaseCondition
 from discrete.nodeframe import EnergyNodeElement, PaperElement
-from discrete.record import histories
-from discrete.restart import restored, stored
-from discrete.statics import Path, StepFailed, stride, walk
+from discrete.record import recorded
+from discrete.restart import restored
+from discrete.stability import Judge
+from discrete.state import State
+from discrete.statics import Path, StepFailed, stride
+from discrete.stepping import Walk
 from discrete.supports import Supports
-from dolfinrod.result import Formulation, NotConverged, Result, Statistics
+from dolfinrod.result import NotConverged, Result
 from dolfinrod.scene import SceneError
 from dolfinrod.scene.door import admit
-from dolfinrod.scene.mechanism import advice
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from discrete.statics import Progress
     from dolfinrod.scene import Scene
 
-__all__ = ["solve"]
+__all__ = ["beginning", "solve"]
 
 
 def solve(
@@ -94,16 +95,40 @@ class _Run:
 
 def _prepare(scene: Scene, cut: Mesh, axial: str, frame: str, equilibrium: bool, start: Result | None) -> _Run:
     """Set up equilibrium iterations or the paper's increments."""
-    loads, supports = Loads(scene, cut), Supports(scene, cut)
     if equilibrium:
-        method = Equilibrium(cut, _law(cut.elements, axial, frame), loads, supports)
-        phase = PhaseCondition(method)
-        path, t = _begin(method, scene, start)
-        return _Run(cut, path, partial(walk, method, phase, path, t, scene), lambda: phase.notes)
-    increments = Increments(cut, loads, supports, node_frame=frame == "node_i")
+        phase, path = _set_up(scene, cut, axial, frame, start)
+        earlier = start.log[-1].stable if start is not None and start.log else True
+        walk = Walk(phase, Judge(scene, cut), scene, path, path.kept[-1].t, stable=earlier)
+        return _Run(cut, path, walk.follow, lambda: phase.notes)
+    increments = Increments(cut, Loads(scene, cut), Supports(scene, cut), node_frame=frame == "node_i")
     carried = Path(increments.begin())
     carried.kept.append(increments.snapshot(carried.state, 0.0))
     return _Run(cut, carried, partial(stride, increments, carried, 0.0, scene), tuple)
+
+
+def beginning(scene: Scene, elements: int | Sequence[int], start: Result | None) -> tuple[PhaseCondition, Path[State]]:
+    """The solver of a scene with the default element, and a path that begins where an earlier result ended.
+
+    Args:
+        scene: The problem.
+        elements: Elements of each rod.
+        start: The earlier result; None: stress free.
+
+    Returns:
+        Solver with its free motions, and the path.
+
+    Raises:
+        SceneError: Elements that cannot be.
+    """
+    return _set_up(scene, mesh(scene, elements), "chord", "element", start)
+
+
+def _set_up(
+    scene: Scene, cut: Mesh, axial: str, frame: str, start: Result | None
+) -> tuple[PhaseCondition, Path[State]]:
+    """Solver with equilibrium iterations, and its first state."""
+    method = Equilibrium(cut, _law(cut.elements, axial, frame), Loads(scene, cut), Supports(scene, cut))
+    return PhaseCondition(method), _begin(method, scene, start)
 
 
 def _followed(scene: Scene, run: _Run, seconds_setup: float, progress: Progress | None) -> Result:
@@ -119,10 +144,10 @@ def _followed(scene: Scene, run: _Run, seconds_setup: float, progress: Progress 
     except StepFailed as caught:
         failure = caught
     seconds = (seconds_setup, time.perf_counter() - started)
-    result = _result(scene, run, seconds, converged=failure is None)
+    result = recorded(scene, run.mesh, run.path, run.notes(), seconds, converged=failure is None)
     if failure is not None:
         raise NotConverged(
-            result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice(scene)
+            result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice(scene, failure)
         ) from failure
     return result
 
@@ -148,8 +173,8 @@ def _law(elements: Elements, axial: str, frame: str) -> Element:
     return PaperElement(elements) if axial == "paper" else EnergyNodeElement(elements)
 
 
-def _begin(method: Equilibrium, scene: Scene, start: Result | None) -> tuple[Path[State], float]:
-    """The first state, stress free or where an earlier result ended, and its pseudo-time."""
+def _begin(method: Equilibrium, scene: Scene, start: Result | None) -> Path[State]:
+    """The first state, stress free or where an earlier result ended."""
     state, t = method.begin(), 0.0
     if start is not None:
         state = restored(start.state, state, method.mesh)
@@ -159,40 +184,4 @@ def _begin(method: Equilibrium, scene: Scene, start: Result | None) -> tuple[Pat
             t = float(start.t[-1])
     path = Path(state)
     path.kept.append(method.snapshot(state, t))
-    return path, t
-
-
-def _result(scene: Scene, run: _Run, seconds: tuple[float, float], *, converged: bool) -> Result:
-    cut, path = run.mesh, run.path
-    n_nodes, n_elements = len(cut.x), len(cut.elements.l)
-    unknowns = {"x": 3 * n_nodes, "rotation": 3 * n_nodes}
-    if isinstance(path.state, State):
-        unknowns["F_n"] = n_elements
-    notes = ["no shear: GA ignored, as in the paper"]
-    if any("extension" in rod.section.rigid for rod in scene.rods):
-        notes.append(f"rigid extension: EA = {RIGID_EXTENSION:.0e}·EI/L²")
-    notes += run.notes()
-    return Result(
-        scene=scene,
-        t=np.array([kept.t for kept in path.kept]),
-        rods=histories(cut, [rod.section for rod in scene.rods], path.kept),
-        converged=converged,
-        log=tuple(path.log),
-        energy={"strain": np.array([kept.energy for kept in path.kept]) * cut.units.moment},
-        statistics=Statistics(
-            dofs=sum(unknowns.values()),
-            load_steps=len(path.log),
-            newton_iterations=path.iterations,
-            factorizations=path.iterations,
-            seconds_setup=seconds[0],
-            seconds_solve=seconds[1],
-        ),
-        formulation=Formulation(
-            "discrete",
-            "spatial",
-            unknowns,
-            ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads)),
-            tuple(notes),
-        ),
-        state=stored(path.state, cut) if isinstance(path.state, State) else {},
-    )
+    return path

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from dolfinrod.eigen import Buckling, Modes, RodShapes
 from dolfinrod.result import Formulation, NotConverged, Result, RodHistory, Statistics, StepLog
 from dolfinrod.scene import (
     Clamp,
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
 
 __all__ = [
+    "Buckling",
     "Clamp",
     "FollowerForce",
     "FollowerMoment",
@@ -48,6 +50,7 @@ __all__ = [
     "Gravity",
     "Guide",
     "LineForce",
+    "Modes",
     "NotConverged",
     "Pin",
     "Planar",
@@ -57,6 +60,7 @@ __all__ = [
     "Result",
     "Rod",
     "RodHistory",
+    "RodShapes",
     "Scene",
     "SceneError",
     "Section",
@@ -65,6 +69,9 @@ __all__ = [
     "Statistics",
     "Steady",
     "StepLog",
+    "buckling",
+    "critical",
+    "modes",
     "solve",
 ]
 
@@ -103,4 +110,114 @@ def solve(
 
     return solve_continuum(
         scene, elements=elements, degree=degree, kinematics=kinematics, comm=comm, progress=progress, start=start
+    )
+
+
+def buckling(
+    scene: Scene,
+    *,
+    modes: int = 3,
+    at: Result | None = None,
+    elements: int | Sequence[int] = 16,
+    degree: int = 3,
+    kinematics: Planar | Spatial | None = None,
+    comm: Intracomm | None = None,
+) -> Buckling:
+    """Critical loads seen from an equilibrium at t, (K + (t_cr − t) dK/dt) v = 0 with K the tangent along the path.
+
+    Exact where the tangent changes linearly with the load, as in straight columns; an estimate where the rod bends
+    before it buckles, better the nearer the equilibrium (`critical` goes there). Only loads and prescribed motions
+    whose history varies at t grow on, each as it does there.
+
+    Args:
+        scene: The problem.
+        modes: Number of modes sought; fewer are found where fewer exist.
+        at: A result of the same scene on the same elements: the equilibrium at its last pseudo-time; by default
+            that at t = 0, under steady loads.
+        elements: Elements of each rod, one number for all or one a rod.
+        degree: Degree of centreline and rotation, 1 to 5.
+        kinematics: `Planar()` for modes within the plane of the scene; by default in space, whatever the scene.
+        comm: MPI communicator, by default the world.
+
+    Returns:
+        Critical pseudo-times, the next one first, with multiplicities and shapes.
+
+    Raises:
+        SceneError: The scene or an option cannot be solved as given, or no load varies.
+        NotConverged: No equilibrium under the steady loads.
+    """
+    from dolfinrod.continuum import buckling as buckling_continuum
+
+    return buckling_continuum(
+        scene, modes=modes, at=at, elements=elements, degree=degree, kinematics=kinematics, comm=comm
+    )
+
+
+def critical(
+    scene: Scene,
+    *,
+    modes: int = 3,
+    elements: int | Sequence[int] = 16,
+    degree: int = 3,
+    kinematics: Planar | Spatial | None = None,
+    comm: Intracomm | None = None,
+) -> Buckling:
+    """First critical point on the path from t = 0 to t_end, deformation before it included.
+
+    Args:
+        scene: The problem.
+        modes: Number of modes sought there.
+        elements: Elements of each rod, one number for all or one a rod.
+        degree: Degree of centreline and rotation, 1 to 5.
+        kinematics: `Planar()` for modes within the plane of the scene; by default in space.
+        comm: MPI communicator, by default the world.
+
+    Returns:
+        The first factor is the critical pseudo-time, to about 1e-9; those of other modes are estimates from there.
+        None where the whole path is free of critical points. `at` is the equilibrium just below.
+
+    Raises:
+        SceneError: The scene or an option cannot be solved as given.
+        NotConverged: No equilibrium on the way.
+    """
+    from dolfinrod.continuum import critical as critical_continuum
+
+    return critical_continuum(scene, modes=modes, elements=elements, degree=degree, kinematics=kinematics, comm=comm)
+
+
+def modes(
+    scene: Scene,
+    *,
+    modes: int = 6,
+    at: Result | None = None,
+    elements: int | Sequence[int] = 16,
+    degree: int = 3,
+    kinematics: Planar | Spatial | None = None,
+    comm: Intracomm | None = None,
+) -> Modes:
+    """Natural frequencies and shapes of small vibrations about an equilibrium, K v = ω² M v.
+
+    Mass and rotary inertia are those of the sections, `rhoA` and `rhoI`, consistent with centreline and rotation.
+
+    Args:
+        scene: The problem.
+        modes: Number of modes sought.
+        at: A result of the same scene on the same elements: the equilibrium at its last pseudo-time; by default
+            that at t = 0, under steady loads.
+        elements: Elements of each rod, one number for all or one a rod.
+        degree: Degree of centreline and rotation, 1 to 5.
+        kinematics: `Planar()` for modes within the plane of the scene; by default in space, whatever the scene.
+        comm: MPI communicator, by default the world.
+
+    Returns:
+        Frequencies, unstable directions first, then the lowest, with multiplicities and shapes.
+
+    Raises:
+        SceneError: The scene or an option cannot be solved as given, or a section has no density.
+        NotConverged: No equilibrium under the steady loads.
+    """
+    from dolfinrod.continuum import modes as modes_continuum
+
+    return modes_continuum(
+        scene, modes=modes, at=at, elements=elements, degree=degree, kinematics=kinematics, comm=comm
     )

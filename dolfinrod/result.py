@@ -76,6 +76,7 @@ class StepLog:
         residual: Norm of the residual in units of EI/L² and EI/L.
         energy: Strain energy [J].
         stable: Whether the equilibrium is stable; None where not judged.
+        unstable_directions: Independent motions that lower the energy; None where they are not counted.
     """
 
     t: float
@@ -84,6 +85,7 @@ class StepLog:
     residual: float
     energy: float
     stable: bool | None = None
+    unstable_directions: int | None = None
 
 
 @dataclass(frozen=True)

@@ -56,3 +56,16 @@ def test_pictures_are_there():
     pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)
     assert pictures
     assert all((Path(__file__).parents[1] / picture).stat().st_size > 0 for picture in pictures)
+
+
+def test_stability_example_prints_what_its_comments_say():
+    """The critical load is that of case F1-Pcr-EA1200.0-GA500.0 of the references, 2.460338954539246."""
+    section = README.split("## Stability")[1].split("\n## ")[0]
+    (example,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(example, "README.md", "exec"), {"dr": dr})
+    critical, linearised, frequencies = printed.getvalue().splitlines()
+    assert float(critical) == pytest.approx(2.460338954539246, rel=1e-7)
+    assert np.array(re.findall(NUMBER, linearised), dtype=float) * 10.0 == pytest.approx([2.46, 2.46], abs=0.01)
+    assert len(set(re.findall(NUMBER, frequencies))) == 1

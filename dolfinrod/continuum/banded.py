@@ -66,6 +66,11 @@ class BandedLU:
         self._lu, self._pivots, info = dgbtrf(matrix, band.width, band.width, overwrite_ab=True)
         self.singular = info > 0
 
+    def sign(self) -> float:
+        """Sign of the determinant, zero where it is."""
+        swaps = int((self._pivots != np.arange(len(self._pivots))).sum())
+        return float(np.prod(np.sign(self._lu[2 * self._band.width])) * (-1.0) ** swaps)
+
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve; not a number where a pivot is zero, which ends SNES."""
         band = self._band

@@ -104,8 +104,20 @@ class Kinematics(Protocol):
         """∂δθ/∂δq in the turned frame, linear in q."""
         ...
 
+    def turn_between(self, a: Array, b: Array) -> Array:
+        """Angle of the turn from a to b [rad], (n,)."""
+        ...
+
+    def extrapolated(self, a: Array, b: Array, factor: float) -> Array:
+        """b turned on by `factor` times the turn from a to b, (..., n_q)."""
+        ...
+
     def rigid_motions(self, r: Array, q: Array) -> Array:
-        """How a node (r, q) moves with its rod: along each working direction, then about each spin axis."""
+        """How n nodes (r, q) move with their rod, along each working direction, then about each spin axis."""
+        ...
+
+    def transport(self, q: Array, rate: Array) -> tuple[Array, Array]:
+        """Rates at which a change of q and a moment m have to change so that spin and moment stay fixed in space."""
         ...
 
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:

@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from mpi4py import MPI
+from petsc4py import PETSc
 
 import numpy as np
 from scipy.linalg import qr
@@ -63,6 +64,40 @@ class PhaseCondition:
             self.notes += tuple(f"{words}: balanced, held by a phase condition" for words in named(rod, in_space))
         self._problem.hold(np.zeros(0, dtype=np.int32))
 
+    def hold_null(self, *matrices: PETSc.Mat) -> None:
+        """Hold the free motions that all of these matrices, assembled with none held, map to zero."""
+        self._motions = self._free()
+        scale = self._largest()
+        for rod, free in enumerate(self._motions):
+            moved = [self._carried(rod, z) for z in free]
+            if moved:
+                rows = [np.linalg.qr(self._images(A, moved))[1] / scale for A in matrices]
+                self._motions[rod] = null_space(np.concatenate(rows)) @ free
+        self._choose()
+
+    def _images(self, A: PETSc.Mat, changes: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+        """A times each change, all components on every rank, as columns."""
+        x, y = A.createVecs()
+        columns = []
+        for change in changes:
+            x.array[:] = change
+            A.mult(x, y)
+            columns.append(np.concatenate(self._problem.discretization.comm.allgather(y.array_r.copy())))
+        x.destroy()
+        y.destroy()
+        return np.stack(columns, axis=1)
+
+    def _carried(self, rod: int, z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Change of this rank's own unknowns as the rod moves along z with its forces N; m and multipliers stay."""
+        problem, d, kin = (self._problem, self._problem.discretization, self._problem.kinematics)
+        mine = problem.rod == rod
+        r, q, N = (d.dofs[f][mine].reshape(-1, d.dofs[f].shape[2]) for f in ("r", "q", "N"))
+        at_rest = kin.at_rest(len(N))
+        moved = np.zeros(len(problem.x))
+        moved[np.concatenate([r, q], axis=1)] = z @ kin.rigid_motions(problem.x[r], problem.x[q])
+        moved[N] = z[kin.dim :] @ kin.rigid_motions(problem.x[N], at_rest)[:, kin.dim :, : kin.dim]
+        return moved[: d.n_owned]
+
     def drop_pushed(self) -> bool:
         """Release the motions along which the loads push; whether there were any."""
         forces = self._forces()
@@ -78,7 +113,7 @@ class PhaseCondition:
         rows: list[list[NDArray[np.float64]]] = [[] for _ in problem.scene.rods]
         for rod, node in problem.constraints.places:
             dofs = np.concatenate([node["r"], node["q"]])
-            moved = kin.rigid_motions(problem.x[node["r"]], problem.x[node["q"]])
+            moved = kin.rigid_motions(problem.x[node["r"]][None], problem.x[node["q"]][None])[0]
             rows[rod].append(moved[:, np.isin(dofs, problem.constraints.dofs)].T)
         everywhere = problem.discretization.comm.allgather(rows)
         none = np.zeros((0, kin.dim + kin.n_spin))
@@ -96,7 +131,7 @@ class PhaseCondition:
             if node is None or not len(z):
                 continue
             dofs = np.concatenate([node["r"], node["q"]])
-            moved = z @ problem.kinematics.rigid_motions(problem.x[node["r"]], problem.x[node["q"]])
+            moved = z @ problem.kinematics.rigid_motions(problem.x[node["r"]][None], problem.x[node["q"]][None])[0]
             _, order = qr(moved, mode="r", pivoting=True)
             most = order[: len(z)]
             chosen.append(dofs[most])

@@ -16,7 +16,7 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from dolfinrod.continuum.banded import BandedLU
+from dolfinrod.continuum.direct import lu
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,6 +27,8 @@ __all__ = ["Newton", "Outcome"]
 
 # Largest turn of a section in one iteration [rad]: beyond it the linearised rotation says nothing any more.
 LARGEST_TURN = 2.0
+# Sections that turned this far in all beyond where they got [rad] are lost: what leads somewhere turns one way.
+LARGEST_DETOUR = 4.0 * LARGEST_TURN
 # Increments relative to the unknowns (and to 1 rad, L, EI/L², EI/L) at which an iteration has converged.
 TOLERANCE = 1e-9
 # Where Newton converges quadratically, an increment this small is known to come next without computing it.
@@ -34,12 +36,14 @@ NEGLIGIBLE = 1e-13
 # Iterations after which a load step is given up; a rod that winds up five turns takes about twenty.
 MOST_ITERATIONS = 50
 
+LOST = PETSc.SNES.ConvergedReason.DIVERGED_DTOL
 SINGULAR = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
 # PETSC_ERR_LIB, an error in a library that PETSc calls.
 LIBRARY_ERROR = 76
 REASONS = {
     PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "the residual is not a number",
     PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: f"Newton's method did not settle in {MOST_ITERATIONS} iterations",
+    LOST: "the sections turned to and fro and did not settle",
     SINGULAR: ("the tangent is singular: something is free to move, or a load is critical"),
     PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_DOMAIN: "the residual is not a number",
 }
@@ -77,12 +81,11 @@ class Newton:
         self._linear = [d.owned_nodes(f).ravel() for f in ("r", "N", "m")]
         self._m = self._linear[-1]
         self._size = self._next = np.inf
-        self._lu: BandedLU | None = None
         self._open()
 
     def _open(self) -> None:
         d = self.problem.discretization
-        self._A, self._X, self._F = d.matrix, d.x.vector.duplicate(), d.x.vector.duplicate()
+        self._A, self._X, self._F = (d.matrix, d.x.vector.duplicate(), d.x.vector.duplicate())
         self.snes = self._make_snes(d.comm)
 
     def _make_snes(self, comm: MPI.Comm) -> PETSc.SNES:
@@ -95,7 +98,7 @@ class Newton:
         snes.setConvergenceTest(self._test)
         ksp = snes.getKSP()
         ksp.setType(PETSc.KSP.Type.PREONLY)
-        self._choose_factorization(ksp.getPC())
+        self._lu = lu(ksp.getPC(), self._A, self.problem.discretization.band)
         options = {"rod_snes_linesearch_type": "basic"}
         database = PETSc.Options()
         for name, value in options.items():
@@ -105,25 +108,12 @@ class Newton:
             database.delValue(name)
         return snes
 
-    def _choose_factorization(self, pc: PETSc.PC) -> None:
-        """LU that pivots, as zero compliances and multipliers need: a band on one rank, MUMPS on many."""
-        band = self.problem.discretization.band
-        if band is None:
-            pc.setType(PETSc.PC.Type.LU)
-            pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
-            pc.setOperators(self._A)
-            pc.setFactorSetUpSolverType()
-            # It puts off the zero pivots of multipliers; the fifth of extra room it takes by itself is not enough.
-            pc.getFactorMatrix().setMumpsIcntl(14, 200)
-        else:
-            pc.setType(PETSc.PC.Type.PYTHON)
-            self._lu = BandedLU(band)
-            pc.setPythonContext(self._lu)
-
     def solve(self) -> Outcome:
         """Equilibrium at the problem's pseudo-time, from the problem's state; on failure the state is lost."""
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
+        self._travelled, self._lost = 0.0, False
+        self._net = np.zeros((len(self._q), self.problem.kinematics.n_spin))
         reason = self._run()
         iterations = self.snes.getIterationNumber()
         self.factorizations += iterations
@@ -184,8 +174,12 @@ class Newton:
         if turn > LARGEST_TURN:
             increment *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
+            self._net += np.einsum("nij,nj->ni", kin.spin(q), increment)
+            self._travelled += LARGEST_TURN
+            (net,) = self._largest(np.linalg.norm(self._net, axis=1))
+            self._lost = bool(self._travelled - net > LARGEST_DETOUR)
         y[self._q] = q - kin.turn(q, increment)
-        before, self._size = self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0)))
+        before, self._size = (self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0))))
         # Quadratic convergence: the ratio of an increment to the square of the one before, and never less than 1.
         self._next = self._size**2 * max(1.0, self._size / before**2) if np.isfinite(before) else np.inf
         return True
@@ -200,6 +194,8 @@ class Newton:
         reasons = PETSc.SNES.ConvergedReason
         if not np.isfinite(norms[2]) or np.isnan(self._size):
             return reasons.DIVERGED_FNORM_NAN
+        if self._lost:
+            return reasons.DIVERGED_DTOL
         if iteration > 0 and (self._size < TOLERANCE or self._next < NEGLIGIBLE):
             return reasons.CONVERGED_SNORM_RELATIVE
         return reasons.DIVERGED_MAX_IT if iteration >= MOST_ITERATIONS else reasons.ITERATING

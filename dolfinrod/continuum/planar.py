@@ -81,11 +81,23 @@ class PlanarRods:
         """The same in the turned frame, (n, 1, 1)."""
         return np.ones((len(q), 1, 1))
 
+    def turn_between(self, a: Array, b: Array) -> Array:
+        """|φ_b − φ_a|."""
+        return np.abs(b - a)[:, 0]
+
+    def extrapolated(self, a: Array, b: Array, factor: float) -> Array:
+        """φ_b + factor (φ_b − φ_a)."""
+        return b + factor * (b - a)
+
     def rigid_motions(self, r: Array, q: Array) -> Array:
-        """(e_i, 0), then (e_z × r, 1), shape (3, 3)."""
-        moved = np.eye(3)
-        moved[2, :2] = -r[1], r[0]
+        """(e_i, 0), then (e_z × r, 1), shape (n, 3, 3)."""
+        moved = np.tile(np.eye(3), (len(r), 1, 1))
+        moved[:, 2, :2] = np.stack([-r[:, 1], r[:, 0]], axis=1)
         return moved
+
+    def transport(self, q: Array, rate: Array) -> tuple[Array, Array]:
+        """None: the normal is fixed, (n, 1, 1) twice."""
+        return np.zeros((len(q), 1, 1)), np.zeros((len(q), 1, 1))
 
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames R(φ) R₀ in space, shapes (t, s, 1), (3, 1), (s, 3, 3) → (t, s, 3, 3)."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mpi4py import MPI
+
 import numpy as np
 
 from dolfinrod.continuum import backend
@@ -14,6 +16,8 @@ from dolfinrod.continuum.nodes import element_ends
 from dolfinrod.scene.history import factor
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from petsc4py import PETSc
 
     from numpy.typing import NDArray
@@ -22,10 +26,14 @@ if TYPE_CHECKING:
     from dolfinrod.continuum.terms.point import PointTerm
     from dolfinrod.scene import Scene
 
+    Block = tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]
+
 __all__ = ["Problem"]
 
 # Two places of one rod closer than this fraction of the unit of length are one node.
 SAME_PLACE = 1e-9
+# Of a load's stiffness, relative to its largest entry.
+ROUND_OFF = 1e-12
 
 
 class Problem:
@@ -41,12 +49,13 @@ class Problem:
         s: Arc length of the nodes of every local cell, in L, shape (cells, k + 1).
         rod: Rod of every local cell.
         R_0: Stress-free frames at those nodes, shape (cells, k + 1, 3, 3).
+        spins: Section axes at the Gauss points in components of spin, shape (cells, points, n_spin, 3).
         held_force: Residual on this rank at the dofs given to `hold`.
         terms: Names of all that acts.
     """
 
     def __init__(self, scene: Scene, discretization: Discretization, placement: Placement) -> None:
-        self.scene, self.discretization, self.placement = scene, discretization, placement
+        self.scene, self.discretization, self.placement = (scene, discretization, placement)
         self.kinematics = discretization.kinematics
         self._cut_rods()
         self._set_values()
@@ -93,14 +102,14 @@ class Problem:
         c_n = np.array([section.compliance_n for section in sections]) * place.force
         c_m = np.array([section.compliance_m for section in sections]) * place.stiffness
         R_0 = self._on_rods(at_points, "frames")
-        directions, spins = place.axes.T @ R_0, place.spin_axes.T @ R_0
+        directions, self.spins = place.axes.T @ R_0, place.spin_axes.T @ R_0
         r_0 = place.points(self._on_rods(self.s, "centerline"))
         self._line_histories, self._line_fields = line_loads(scene, place, self.rod, at_points)
         self.values = Values(
             ends=self.ends,
             r_0=r_0,
             C_n=np.einsum("cqij,cj,cqkj->cqik", directions, c_n[self.rod], directions),
-            C_m=np.einsum("cqij,cj,cqkj->cqik", spins, c_m[self.rod], spins),
+            C_m=np.einsum("cqij,cj,cqkj->cqik", self.spins, c_m[self.rod], self.spins),
         )
         d.set(self.values)
         self.R_0 = self._on_rods(self.s, "frames")
@@ -176,23 +185,60 @@ class Problem:
         self.x[:] = x
         self._lumped = b[self._unit[1]]
 
+    @property
+    def conservative(self) -> bool:
+        """Whether the acting loads have a potential, so that the tangent is symmetric."""
+        mine = all(self._is_symmetric(*block) for block in self._stiffnesses(on_sphere=True))
+        return bool(self.discretization.comm.allreduce(mine, op=MPI.LAND))
+
+    def _is_symmetric(self, rows: NDArray[np.int32], columns: NDArray[np.int32], blocks: NDArray[np.float64]) -> bool:
+        """Whether such blocks are, but for round-off and for held dofs."""
+        free = blocks * ~(self._excluded[rows][:, :, None] | self._excluded[columns][:, None, :])
+        skew = free - np.swapaxes(free, 1, 2) if np.array_equal(rows, columns) else free
+        return bool(np.abs(skew).max(initial=0.0) <= ROUND_OFF * np.abs(blocks).max(initial=0.0))
+
+    def largest_turn_between_nodes(self) -> float:
+        """Largest turn of a node against its neighbour in the same element [rad], over all ranks."""
+        d = self.discretization
+        q = self.x[d.dofs["q"]][:, np.argsort(d.nodes)]
+        pairs = (q[:, 1:].reshape(-1, q.shape[2]), q[:, :-1].reshape(-1, q.shape[2]))
+        largest = float(self.kinematics.turn_between(*pairs).max(initial=0.0))
+        return float(d.comm.allreduce(largest, op=MPI.MAX))
+
     def clear_held(self, b: NDArray[np.float64]) -> None:
         """Zero the rows of held dofs, which the state meets already; what the ones of `hold` need is kept."""
         self.held_force = b[self._extra]
         b[self._held] = 0.0
 
-    def assemble_tangent(self, A: PETSc.Mat) -> None:
-        """Tangent at the current state and time, unit rows and columns for held dofs."""
-        A.zeroEntries()
-        self.discretization.tangent.add_matrix(A, self._mask)
+    def _stiffnesses(self, *, on_sphere: bool) -> Iterator[Block]:
+        """Stiffness of the acting loads; of moments only its part along the sphere of unit quaternions, if so asked."""
         for term in self._acting:
             block = term.tangent(self.x)
-            if block is not None:
-                backend.add_entries(A, *self._entries(*block))
+            if block is None:
+                continue
+            rows, columns, values = block
+            if on_sphere and np.array_equal(rows, columns):
+                p = self.x[rows]
+                along = np.eye(p.shape[1]) - p[:, :, None] * p[:, None, :]
+                values = along @ values @ along
+            yield rows, columns, values
+
+    def assemble_tangent(self, A: PETSc.Mat, *, on_sphere: bool = False) -> None:
+        """Tangent at the current state and time, unit rows and columns for held dofs.
+
+        Args:
+            A: Where to.
+            on_sphere: Whether changes along a quaternion, which the multipliers forbid anyhow, are left out: then the
+                tangent is symmetric where the loads have a potential.
+        """
+        A.zeroEntries()
+        self.discretization.tangent.add_matrix(A, self._mask)
+        for block in self._stiffnesses(on_sphere=on_sphere):
+            backend.add_entries(A, *self.entries(*block))
         backend.add_entries(A, self._held, self._held, 1.0)
         A.assemble()
 
-    def _entries(
+    def entries(
         self, rows: NDArray[np.int32], columns: NDArray[np.int32], blocks: NDArray[np.float64]
     ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]:
         """Entries of dense blocks, one for each row of (rows, columns), leaving out held dofs."""

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "discontinuous_basis",
+    "discontinuous_nodes",
     "lagrange_basis",
     "lagrange_nodes",
     "lagrange_slopes",
@@ -49,6 +50,12 @@ def discontinuous_basis(degree: int, points: NDArray[np.float64]) -> NDArray[np.
     variant = basix.LagrangeVariant.gll_warped if degree > 0 else basix.LagrangeVariant.unset
     element = basix.create_element(basix.ElementFamily.P, CELL, degree, variant, True)
     return np.asarray(element.tabulate(0, points[:, None])[0, :, :, 0])
+
+
+def discontinuous_nodes(degree: int) -> NDArray[np.float64]:
+    """Position of the nodes of that basis on [0, 1]."""
+    variant = basix.LagrangeVariant.gll_warped if degree > 0 else basix.LagrangeVariant.unset
+    return np.asarray(basix.create_element(basix.ElementFamily.P, CELL, degree, variant, True).points[:, 0])
 
 
 def quadrature_points(degree: int) -> NDArray[np.float64]:

@@ -17,7 +17,8 @@ from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
 from dolfinrod.continuum.spatial import SpatialRods
-from dolfinrod.continuum.stepping import Path, StepFailed, walk
+from dolfinrod.continuum.stability import judging
+from dolfinrod.continuum.stepping import Path, StepFailed, Walk
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import Planar, SceneError, Spatial
 from dolfinrod.scene.door import admit
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 
     Progress = Callable[[StepLog, float], None]
 
-__all__ = ["solve"]
+__all__ = ["check_degree", "choose", "record", "solve"]
 
 DEGREES = range(1, 6)
 
@@ -52,11 +53,11 @@ def solve(
     """Equilibrium of geometrically exact rods (Simo-Reissner, Kirchhoff in the limit); see `dolfinrod.solve`."""
     comm = MPI.COMM_WORLD if comm is None else comm
     admit(scene, start, Result)
-    if not isinstance(degree, int | np.integer) or isinstance(degree, bool) or degree not in DEGREES:
-        raise SceneError(f"degree must be 1, 2, 3, 4 or 5, got {degree!r}")
+    check_degree(degree)
     chosen = choose(scene, kinematics)
     counts = element_counts(elements, len(scene.rods))
-    result, failure = _path(scene, chosen, comm, degree, counts, progress, start)
+    in_space = kinematics is None
+    result, failure = _path(scene, chosen, comm, degree, counts, progress, start, in_space=in_space)
     if failure is not None:
         words = advice(scene)
         raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=words)
@@ -71,6 +72,8 @@ def _path(
     counts: tuple[int, ...],
     progress: Progress | None,
     start: Result | None,
+    *,
+    in_space: bool,
 ) -> tuple[Result, StepFailed | None]:
     """All states that could be reached, and what stopped the stepping, if anything did."""
     started = time.perf_counter()
@@ -80,8 +83,9 @@ def _path(
         newton, phase, readout = Newton(problem), PhaseCondition(problem), Readout(problem)
         path = _begin(scene, readout, start)
         compiling = discretization.seconds_compile if is_new else 0.0
-        ready = time.perf_counter()
-        failure = _walk(newton, phase, readout, path, progress)
+        with judging(problem, in_space=in_space) as judge:
+            ready = time.perf_counter()
+            failure = _walk(Walk(newton, phase, judge, readout, path, progress))
         statistics = Statistics(
             dofs=discretization.n_dofs,
             load_steps=len(path.log),
@@ -91,22 +95,27 @@ def _path(
             seconds_setup=ready - started - compiling,
             seconds_solve=time.perf_counter() - ready,
         )
-        return _result(problem, phase, readout, path, statistics, converged=failure is None), failure
+        notes = phase.notes if in_space or rods.dim == 3 else (*phase.notes, "stability judged in the plane only")
+        return record(problem, notes, readout, path, statistics, converged=failure is None), failure
 
 
-def _walk(
-    newton: Newton, phase: PhaseCondition, readout: Readout, path: Path, progress: Progress | None
-) -> StepFailed | None:
+def _walk(walk: Walk) -> StepFailed | None:
     """Step to the end; what stopped it, or None."""
     try:
-        walk(newton, phase, readout, path, progress)
+        walk.run()
     except StepFailed as failure:
         return failure
     except KeyboardInterrupt:
-        return StepFailed(t=path.t[-1], step=0.0, reason="interrupted by the user")
+        return StepFailed(t=walk.path.t[-1], step=0.0, reason="interrupted by the user")
     finally:
-        newton.close()
+        walk.newton.close()
     return None
+
+
+def check_degree(degree: int) -> None:
+    """Raises SceneError for a degree there are no forms of."""
+    if not isinstance(degree, int | np.integer) or isinstance(degree, bool) or degree not in DEGREES:
+        raise SceneError(f"degree must be 1, 2, 3, 4 or 5, got {degree!r}")
 
 
 def choose(scene: Scene, kinematics: Planar | Spatial | None) -> Planar | Spatial:
@@ -143,12 +152,14 @@ def _begin(scene: Scene, readout: Readout, start: Result | None) -> Path:
         readout.restore(start.state)
         if start.scene == scene and start.t[-1] < scene.motion.t_end:
             t = float(start.t[-1])
-    return Path(t=[t], states=[readout.state()], energy=[readout.energy()])
+    stable = True if start is None else start.log[-1].stable if start.log else None
+    return Path(t=[t], states=[readout.state()], energy=[readout.energy()], stable=stable)
 
 
-def _result(
-    problem: Problem, phase: PhaseCondition, readout: Readout, path: Path, statistics: Statistics, *, converged: bool
+def record(
+    problem: Problem, notes: tuple[str, ...], readout: Readout, path: Path, statistics: Statistics, *, converged: bool
 ) -> Result:
+    """What a solve leaves behind."""
     d = problem.discretization
     unknowns = {field: int(np.prod(path.states[0][field].shape)) for field in d.kinematics.fields}
     for field in set(unknowns) - {"N", "m"}:
@@ -162,6 +173,6 @@ def _result(
         log=tuple(path.log),
         energy={"strain": np.array(path.energy)},
         statistics=statistics,
-        formulation=Formulation("continuum", d.kinematics.name, unknowns, problem.terms, phase.notes),
+        formulation=Formulation("continuum", d.kinematics.name, unknowns, problem.terms, notes),
         state=path.states[-1],
     )

@@ -95,12 +95,30 @@ class SpatialRods:
         """Spin in the turned frame, 2 Im(p̄ δp), linear in p, (n, 3, 4)."""
         return 2.0 * quaternion.right(q)
 
+    def turn_between(self, a: Array, b: Array) -> Array:
+        """2 arccos(a·b), beyond π where the quaternions point away from each other."""
+        return 2.0 * np.arccos(np.clip(np.einsum("ni,ni->n", a, b), -1.0, 1.0))
+
+    def extrapolated(self, a: Array, b: Array, factor: float) -> Array:
+        """Along the great circle through a and b."""
+        half = np.arccos(np.clip(np.sum(a * b, axis=-1, keepdims=True), -1.0, 1.0))
+        ratio = factor * np.sinc(factor * half / np.pi) / np.sinc(half / np.pi)
+        return np.asarray((np.cos(factor * half) + np.cos(half) * ratio) * b - ratio * a)
+
     def rigid_motions(self, r: Array, q: Array) -> Array:
-        """(e_i, 0), then (e_i × r, ½ e_i p), shape (6, 7)."""
-        moved = np.eye(6, 7)
-        moved[3:, :3] = np.cross(np.eye(3), r)
-        moved[3:, 3:] = 0.25 * self.spin(q[None])[0]
+        """(e_i, 0), then (e_i × r, ½ e_i p), shape (n, 6, 7)."""
+        moved = np.tile(np.eye(6, 7), (len(r), 1, 1))
+        moved[:, 3:, :3] = quaternion.cross(np.eye(3), r[:, None])
+        moved[:, 3:, 3:] = 0.25 * self.spin(q)
         return moved
+
+    def transport(self, q: Array, rate: Array) -> tuple[Array, Array]:
+        """δp ↦ δp (p̄ p′) and m ↦ −ω × m with ω = 2 Im(p̄ p′), as matrices (n, 4, 4) and (n, 3, 3)."""
+        half = np.einsum("nij,nj,n->ni", quaternion.right(q), rate, 1.0 / np.einsum("ni,ni->n", q, q))
+        spinning = np.concatenate([np.zeros((len(q), 1)), half], axis=1)
+        changes = quaternion.multiply(np.eye(4)[None], spinning[:, None, :])
+        moments = quaternion.cross(np.eye(3)[None], 2.0 * half[:, None, :])
+        return np.swapaxes(changes, 1, 2), np.swapaxes(moments, 1, 2)
 
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames R(p) R₀ in space, shapes (t, s, 4), (3, 3), (s, 3, 3) → (t, s, 3, 3)."""

@@ -1,13 +1,14 @@
-"""Load stepping: the whole load first, halved where no equilibrium is found."""
+"""Load stepping: the whole load first, halved where no equilibrium is found, longer again after easy steps."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dolfinrod.continuum.neutral import equilibrium
+from dolfinrod.continuum.stability import Verdict
 from dolfinrod.result import StepLog
 from dolfinrod.scene.history import kinks
 
@@ -17,14 +18,26 @@ if TYPE_CHECKING:
     from dolfinrod.continuum.neutral import PhaseCondition
     from dolfinrod.continuum.newton import Newton, Outcome
     from dolfinrod.continuum.readout import Readout, State
+    from dolfinrod.continuum.stability import Judge
     from dolfinrod.scene import Scene
 
-__all__ = ["Path", "StepFailed", "targets", "walk"]
+__all__ = ["Path", "StepFailed", "Walk", "targets"]
 
 # Halvings of the way from one target to the next after which a step is too small to be taken.
 MOST_CUTS = 12
+# Halvings in search of a stable way past a point where the state found is not stable any more.
+MOST_DETOURS = 8
 # A prescribed turn of more than this in one step [rad] would send the interpolated quaternion through zero.
 LARGEST_PRESCRIBED_TURN = np.pi / 2
+# A step that took at most so many iterations was easy, and the next may be longer by this factor.
+EASY, GROWTH = 6, 1.5
+# Easy steps before a length that failed is tried again.
+PATIENCE = 4
+# Extrapolation pays where Newton's method starts in its quadratic range anyway, which these iterations show.
+SMOOTH = 4
+COARSE = "sections at neighbouring nodes turn by {:.2g} rad against each other, more than the elements can tell apart"
+# Turns between neighbouring nodes [rad] beyond which no equilibrium is accepted, or its loss is blamed on the mesh.
+ALIASED, BLURRED = np.pi, np.pi / 2
 
 
 class StepFailed(RuntimeError):  # noqa: N818
@@ -45,6 +58,7 @@ class Path:
         energy: Their strain energies [J].
         log: One row a step.
         iterations: All Newton iterations, failed attempts included.
+        stable: Whether the last state is stable; None where that is not known.
     """
 
     t: list[float] = field(default_factory=list)
@@ -52,57 +66,155 @@ class Path:
     energy: list[float] = field(default_factory=list)
     log: list[StepLog] = field(default_factory=list)
     iterations: int = 0
+    stable: bool | None = None
 
 
-def targets(scene: Scene, t_0: float) -> list[float]:
-    """Pseudo-times after t_0 that must be met: the asked-for steps and the kinks of histories."""
+@dataclass
+class Stride:
+    """Length of the next step, from how the last ones went.
+
+    Args:
+        length: That Newton's method is trusted with.
+        failed: Shortest that did not succeed.
+        successes: Steps taken since then.
+        cuts: Failed attempts at the present step.
+    """
+
+    length: float = np.inf
+    failed: float = np.inf
+    successes: int = 0
+    cuts: int = 0
+
+    def fail(self, tried: float) -> None:
+        """Half of what was tried comes next."""
+        self.length, self.failed, self.successes = tried / 2, tried, 0
+        self.cuts += 1
+
+    def succeed(self, tried: float, iterations: int) -> None:
+        """The same comes next, or more after an easy step, up to what failed not long ago."""
+        self.successes += 1
+        grown = GROWTH * tried
+        if self.cuts == 0 and iterations <= EASY and (grown < self.failed or self.successes >= PATIENCE):
+            self.length = max(self.length, grown)
+        elif self.cuts:
+            self.length = tried
+        self.cuts = 0
+
+    def next(self, distance: float) -> float:
+        """Length of the next step on the way to a target, the rest being cut into equal parts."""
+        return float(distance / np.ceil(distance / self.length * (1 - 1e-9))) if self.length < distance else distance
+
+
+def targets(scene: Scene, t_0: float, until: float = np.inf) -> list[float]:
+    """Pseudo-times after t_0 that must be met: the asked-for steps, the kinks of histories and where to stop."""
     motion = scene.motion
+    end = min(until, motion.t_end)
     even = np.arange(1, (motion.steps or 1) + 1) / (motion.steps or 1) * motion.t_end
     corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
-    return sorted({float(t) for t in (*even, *corners) if t_0 < t <= motion.t_end})
+    return sorted({float(t) for t in (*even, *corners, end) if t_0 < t <= end})
 
 
-def walk(
-    newton: Newton,
-    phase: PhaseCondition,
-    readout: Readout,
-    path: Path,
-    progress: Callable[[StepLog, float], None] | None,
-) -> None:
-    """Go from the last state in `path` to the end, adding every accepted state.
+class Walk:
+    """Goes from the last state of a path to the end of the pseudo-time.
 
-    Raises:
-        StepFailed: No equilibrium was found even at the smallest step.
+    Args:
+        newton: Solver of the problem.
+        phase: Its free motions.
+        judge: Tells stable states from others; None: nobody asks.
+        readout: Gathers states.
+        path: Grows by every accepted state.
+        progress: Called with every accepted step and the final pseudo-time.
     """
-    problem = newton.problem
-    scene = problem.scene
-    t, step = path.t[-1], np.inf
-    for target in targets(scene, t):
-        cuts, smallest = 0, (target - t) / 2**MOST_CUTS
-        while t < target:
-            trial = min(step, target - t)
-            while problem.constraints.largest_turn(t, t + trial) > LARGEST_PRESCRIBED_TURN * (1 + 1e-12):
-                trial /= 2
-            t_next = target if trial >= target - t else t + trial
-            problem.advance_to(t_next)
-            outcome = equilibrium(newton, phase)
-            path.iterations += outcome.iterations
-            if outcome.converged:
-                t = t_next
-                _accept(path, t, outcome, cuts, readout)
-                step, cuts = (2 * step if cuts == 0 else trial), 0
-                if progress is not None:
-                    progress(path.log[-1], scene.motion.t_end)
-            else:
-                cuts += 1
-                readout.restore(path.states[-1])
-                step = trial / 2
-                if step <= smallest:
-                    raise StepFailed(t=t, step=trial, reason=outcome.reason)
 
+    def __init__(
+        self,
+        newton: Newton,
+        phase: PhaseCondition,
+        judge: Judge | None,
+        readout: Readout,
+        path: Path,
+        progress: Callable[[StepLog, float], None] | None,
+    ) -> None:
+        self.newton, self._phase, self._judge, self._readout = (newton, phase, judge, readout)
+        self.path, self._progress = path, progress
+        self._stride = Stride()
+        scene = newton.problem.scene
+        self._corners = {t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))}
 
-def _accept(path: Path, t: float, outcome: Outcome, cuts: int, readout: Readout) -> None:
-    path.t.append(t)
-    path.states.append(readout.state())
-    path.energy.append(readout.energy())
-    path.log.append(StepLog(t, outcome.iterations, cuts, outcome.residual, path.energy[-1]))
+    def run(self, until: float = np.inf) -> None:
+        """Meet every target up to a pseudo-time.
+
+        Raises:
+            StepFailed: No equilibrium was found even at the smallest step.
+        """
+        scene = self.newton.problem.scene
+        for target in targets(scene, self.path.t[-1], until):
+            start = self.path.t[-1]
+            while self.path.t[-1] < target:
+                self._step(target, target - start)
+
+    def _step(self, target: float, interval: float) -> None:
+        """Try one step towards the target, and accept it or make the next one shorter."""
+        path, problem, t = self.path, self.newton.problem, self.path.t[-1]
+        tried = self._stride.next(target - t)
+        while problem.constraints.largest_turn(t, t + tried) > LARGEST_PRESCRIBED_TURN * (1 + 1e-12):
+            tried /= 2
+        t_next = target if tried >= target - t else t + tried
+        outcome, state, verdict = self._attempt(t_next, tried, closely=t_next == target)
+        path.iterations += outcome.iterations
+        if state is not None and verdict is not None:
+            # The way to a stable state may only be too steep for so long a step.
+            lost = verdict.avoidable and path.stable is not False
+            if not lost or tried <= interval / 2**MOST_DETOURS:
+                self._accept(t_next, outcome, state, verdict)
+                self._stride.succeed(tried, outcome.iterations)
+                if lost:
+                    self._stride = Stride()
+                return
+        self._readout.restore(path.states[-1])
+        self._stride.fail(tried)
+        if self._stride.length <= interval / 2 ** (MOST_CUTS + 1):
+            turn = problem.largest_turn_between_nodes()
+            raise StepFailed(t=t, step=tried, reason=COARSE.format(turn) if turn > BLURRED else outcome.reason)
+
+    def _attempt(self, t: float, step: float, *, closely: bool) -> tuple[Outcome, State | None, Verdict | None]:
+        """Equilibrium at t; the state and what it is worth, if one was found that the elements can show."""
+        path, problem = self.path, self.newton.problem
+        smooth = len(path.log) > 1 and path.log[-1].iterations <= SMOOTH and path.t[-1] not in self._corners
+        if smooth and step <= (path.t[-1] - path.t[-2]) * (1 + 1e-9):
+            self._readout.restore(self._extrapolated(step / (path.t[-1] - path.t[-2])))
+        problem.advance_to(t)
+        outcome = equilibrium(self.newton, self._phase)
+        if not outcome.converged:
+            return outcome, None, None
+        turn = problem.largest_turn_between_nodes()
+        if turn > ALIASED:
+            return replace(outcome, converged=False, reason=COARSE.format(turn)), None, None
+        state = self._readout.state()
+        return outcome, state, Verdict(None) if self._judge is None else self._judge.verdict(state, t, closely=closely)
+
+    def _extrapolated(self, factor: float) -> State:
+        """The last state, and what led to it once more, times a factor."""
+        before, last = self.path.states[-2:]
+        turn = self.newton.problem.kinematics.extrapolated
+        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in last if f != "q"}
+        return beyond | {"q": turn(before["q"], last["q"], factor)}
+
+    def _accept(self, t: float, outcome: Outcome, state: State, verdict: Verdict) -> None:
+        path = self.path
+        path.t.append(t)
+        path.states.append(state)
+        path.energy.append(self._readout.energy())
+        path.stable = verdict.stable
+        row = StepLog(
+            t,
+            outcome.iterations,
+            self._stride.cuts,
+            outcome.residual,
+            path.energy[-1],
+            verdict.stable,
+            verdict.directions,
+        )
+        path.log.append(row)
+        if self._progress is not None:
+            self._progress(row, self.newton.problem.scene.motion.t_end)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -11,12 +11,32 @@ from operator import itemgetter
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import entries, listed, number
 
-__all__ = ["History", "Steady", "factor", "history", "kinks"]
+__all__ = ["History", "Line", "Steady", "factor", "history", "kinks", "slope"]
+
+# Step of the difference quotient of a function, in t_end: truncation and round-off of five points are both 1e-13.
+STEP = 1e-3
 
 
 @dataclass(frozen=True)
 class Steady:
     """The full load from the start to the end, factor 1."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A history that goes on as it was at some moment, value + slope · t.
+
+    Args:
+        value: Factor at t = 0.
+        slope: Its rate.
+    """
+
+    value: float
+    slope: float
+
+    def __call__(self, t: float) -> float:
+        """Factor at time `t`, which may be negative."""
+        return self.value + self.slope * t
 
 
 Table = tuple[tuple[float, float], ...]
@@ -86,3 +106,29 @@ def kinks(history: History) -> tuple[float, ...]:
     if history is None or isinstance(history, Steady) or callable(history):
         return ()
     return tuple(t for t, _ in history)
+
+
+def slope(history: History, t: float, t_end: float) -> float:
+    """Rate of the factor from time `t` on; at the end of the path, with which it got there.
+
+    Args:
+        history: How the load grows.
+        t: Pseudo-time.
+        t_end: Where the pseudo-time ends.
+
+    Returns:
+        d factor/dt, one-sided.
+    """
+    ahead = 1.0 if t < t_end else -1.0
+    if history is None or isinstance(history, Steady):
+        return 1.0 / t_end if history is None else 0.0
+    if not callable(history):
+        after = (bisect_right if ahead > 0.0 else bisect_left)(history, t, key=itemgetter(0))
+        if after in (0, len(history)):
+            return 0.0
+        (t_0, f_0), (t_1, f_1) = history[after - 1 : after + 1]
+        return (f_1 - f_0) / (t_1 - t_0)
+    step = ahead * STEP * t_end
+    f = [factor(history, t + i * step, t_end) for i in range(5)]
+    # Lagrange's formula for the derivative at the first of five points.
+    return (4.0 * (f[1] - f[0]) - 3.0 * (f[2] - f[0]) + 4.0 / 3.0 * (f[3] - f[0]) - 0.25 * (f[4] - f[0])) / step

@@ -84,12 +84,12 @@ def _normal_flipped(right: Any, scene: dr.Scene, kinematics: Any) -> Placement:
     return replace(place, spin_axes=-place.spin_axes) if place.spin_axes.shape[1] == 1 else place
 
 
-def _without_geometric_stiffness(right: Any, self: Problem, A: Any) -> None:
+def _without_geometric_stiffness(right: Any, self: Problem, A: Any, **options: Any) -> None:
     """Tangent of a rod without force: what forces do as sections turn is left out."""
     N = self.discretization.dofs["N"]
     force = self.x[N].copy()
     self.x[N] = 0.0
-    right(self, A)
+    right(self, A, **options)
     self.x[N] = force
 
 

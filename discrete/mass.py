@@ -1,0 +1,109 @@
+"""Masses of the nodes, Eq. 1–10: half of each element to either end, with the inertia of that half about the node.
+
+A node between two elements of length l carries m = ρA l and, across the rod, the rotary inertia ρI l + m l²/12 of the
+paper's J_v and J_w; an end node half of both, (m/2)(l/2)²/3, so that the total mass is that of the rod.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from discrete.frames import direction_cosines, inertia
+from discrete.unknowns import AXIAL, N_ELEMENT, N_NODE, SPIN_I, SPIN_J, X_I, X_J
+from dolfinrod.scene import SceneError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from discrete.mesh import Mesh
+    from discrete.nodes import Tangent
+    from dolfinrod.scene import Section
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Masses", "at_nodes", "densities", "masses", "uniform"]
+
+
+@dataclass(frozen=True, eq=False)
+class Masses:
+    """Mass and rotary inertia at either end of each element, in units of the model; time is in seconds.
+
+    Args:
+        m: Shape (n,).
+        J_star: About d1, d2, d3, shape (n, 3).
+    """
+
+    m: Array
+    J_star: Array
+
+    def elements(self, R: Array, tangent: Tangent) -> Array:
+        """Mass matrices of the elements, block by block, in the axes in which the tangent holds its spins.
+
+        Args:
+            R: Section frames, shape (n_nodes, 3, 3).
+            tangent: Says which spins stand in axes of their own.
+
+        Returns:
+            Shape (n, 13, 13).
+        """
+        node_i = tangent.system.node_i
+        M = np.zeros((len(self.m), N_ELEMENT, N_ELEMENT))
+        axes = np.tile(np.eye(3), (len(R), 1, 1))
+        axes[tangent.guided] = tangent.axes
+        A = direction_cosines(R) @ axes
+        for place, spin, nodes in ((X_I, SPIN_I, node_i), (X_J, SPIN_J, node_i + 1)):
+            M[:, place, place] = self.m[:, None, None] * np.eye(3)
+            M[:, spin, spin] = inertia(self.J_star[:, :, None] * np.eye(3), A[nodes])
+        return M
+
+
+def at_nodes(elements: Array, tangent: Tangent) -> Array:
+    """Mass matrices of the nodes from those of the elements, shape (n_nodes, 7, 7)."""
+    system = tangent.system
+    M = np.zeros((system.n_unknowns // N_NODE, N_NODE, N_NODE))
+    M[system.node_i] = elements[:, :N_NODE, :N_NODE]
+    M[system.node_i + 1, :AXIAL, :AXIAL] += elements[:, N_NODE:, N_NODE:]
+    return M
+
+
+def masses(mesh: Mesh, ρA: Array, ρI: Array) -> Masses:
+    """Masses of given densities.
+
+    Args:
+        mesh: Nodes and elements.
+        ρA: Mass per length of each rod [kg/m].
+        ρI: Rotary inertia per length of each rod, shape (n_rods, 3) [kg m].
+
+    Returns:
+        In units of the model.
+    """
+    of, l = mesh.elements.rod, mesh.elements.l * mesh.units.length
+    J_star = ρI[of] * (0.5 * l)[:, None]
+    J_star[:, 1:] += (ρA[of] * l**3 / 24.0)[:, None]
+    return Masses(0.5 * ρA[of] * l * mesh.units.length / mesh.units.force, J_star / mesh.units.moment)
+
+
+def densities(sections: Sequence[Section]) -> tuple[Array, Array]:
+    """Mass and rotary inertia per length of each rod, the latter zero where it is not given.
+
+    Raises:
+        SceneError: A section without mass.
+    """
+    for k, section in enumerate(sections):
+        if section.rhoA is None:
+            raise SceneError(f"rods[{k}].section.rhoA (or a density) is needed for frequencies, got None")
+    return (
+        np.array([section.rhoA for section in sections], dtype=float),
+        np.array([section.rhoI or (0.0, 0.0, 0.0) for section in sections], dtype=float),
+    )
+
+
+def uniform(mesh: Mesh) -> Masses:
+    """The same mass per length everywhere, no rotary inertia but that of the nodes; one in units of the model."""
+    n = len(mesh.s)
+    return masses(mesh, np.full(n, mesh.units.force / mesh.units.length**2), np.zeros((n, 3)))

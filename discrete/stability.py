@@ -1,0 +1,186 @@
+"""Whether an equilibrium is stable: by the inertia of its tangent, or by eigenvalues where loads are not conservative.
+
+A symmetric tangent is the second variation of the energy: stable is one without negative directions. Loads that follow
+the section, and dead moments in space, have none. There K v = λ M v is asked for the λ nearest to zero. A negative real
+part is a direction in which the rod gives way (divergence), real at a critical point; a complex λ otherwise is an
+oscillation that grows (flutter). M is the mass of the rods, where they have none a uniform one. Two equal frequencies
+split into a complex pair under the slightest unsymmetric load, but any damping holds that: growth up to `DAMPED` a
+radian is not called flutter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from discrete.assembly import SingularTangentError
+from discrete.inertia import blocks, negative_directions
+from discrete.krylov import ACCURATE, REAL, leading
+from discrete.mass import at_nodes, densities, masses, uniform
+from discrete.unknowns import X
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from discrete.mass import Masses
+    from discrete.mesh import Mesh
+    from discrete.nodes import Tangent
+    from dolfinrod.scene import Scene
+
+    Array = NDArray[np.float64]
+    Complex = NDArray[np.complex128]
+
+__all__ = ["Judge", "Verdict", "spectrum"]
+
+# Largest difference from symmetry that round-off and the tolerance of the iteration leave, over the largest entry.
+SYMMETRIC = 1e-7
+# Growth of an oscillation per radian of its phase that a hundredth of the critical damping holds.
+DAMPED = 0.01
+# Part of 1/λ, over the largest, that round-off may turn negative.
+SLIGHT = 1e-4
+# Accuracy of eigenvalues of which only the sign is asked for.
+ROUGH = 1e-7
+# Eigenvalues sought where the tangent is not symmetric, and directions in which a rod gives way otherwise.
+SOUGHT = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """What is known of the stability of a state.
+
+    Args:
+        stable: None where the tangent is singular to round-off.
+        directions: Number of directions in which it gives way without oscillating, up to `SOUGHT` where the tangent
+            is not symmetric; None where it could not be counted.
+        conservative: Whether the tangent is symmetric.
+    """
+
+    stable: bool | None
+    directions: int | None
+    conservative: bool
+
+    @property
+    def gives_way(self) -> bool:
+        """Whether a critical point lies between it and a stable state."""
+        return bool(self.directions)
+
+
+class Judge:
+    """Stability of the equilibria of a scene.
+
+    Args:
+        scene: The problem.
+        mesh: Its nodes and elements.
+    """
+
+    def __init__(self, scene: Scene, mesh: Mesh) -> None:
+        sections = [rod.section for rod in scene.rods]
+        heavy = all(section.rhoA is not None for section in sections)
+        self._masses = masses(mesh, *densities(sections)) if heavy else uniform(mesh)
+
+    def verdict(self, tangent: Tangent, R: Array) -> Verdict:
+        """Judge a state.
+
+        Args:
+            tangent: There.
+            R: Section frames there, shape (n_nodes, 3, 3).
+
+        Returns:
+            What could be said.
+        """
+        symmetric = blocks(tangent)
+        if symmetric.asymmetry <= SYMMETRIC:
+            negative = negative_directions(symmetric)
+            return Verdict(None if negative is None else negative == 0, negative, True)
+        try:
+            if negative_directions(symmetric) != 0:
+                λ, _ = _falling(tangent, R, self._masses, SOUGHT, ROUGH)
+                if len(λ):
+                    return Verdict(False, int(_real(λ).sum()), False)
+            λ, _ = spectrum(tangent, R, self._masses, SOUGHT, accuracy=ROUGH)
+        except SingularTangentError:
+            return Verdict(None, None, False)
+        s = np.sqrt(λ[(λ.real > 0.0) & ~_real(λ)])
+        return Verdict(not (np.abs(s.imag) > DAMPED * s.real).any(), 0, False)
+
+    def pushed(self, tangent: Tangent, R: Array, rate: Array) -> float:
+        """How far the path leads in the directions in which the state gives way, in lengths of the rod.
+
+        Zero where a symmetry keeps the loads from pushing the rod off a branch that has lost its stability.
+
+        Args:
+            tangent: Of a state that gives way.
+            R: Section frames there.
+            rate: Where the path leads from it, spins in the axes of the tangent, shape (n_nodes · 7,).
+
+        Returns:
+            Largest component of the rate along a mode, root mean square over the rod.
+        """
+        M = at_nodes(self._masses.elements(R, tangent), tangent)
+        _, v = _falling(tangent, R, self._masses, SOUGHT)
+        modes = v.real.T.reshape(-1, *M.shape[:2])
+        path = rate.reshape(M.shape[:2])
+        heavy = np.einsum("nij,nj->ni", M, path)
+        whole = float(np.einsum("nii->", M[:, X, X])) / 3.0
+        size = np.sqrt(np.einsum("ani,nij,anj->a", modes, M, modes) * whole)
+        return float(np.max(np.abs(np.einsum("ani,ni->a", modes, heavy)) / size, initial=0.0))
+
+
+def _real(λ: Complex) -> NDArray[np.bool_]:
+    """Which are real but for round-off."""
+    return np.abs(λ.imag) <= REAL * np.abs(λ)
+
+
+def spectrum(
+    tangent: Tangent, R: Array, mass: Masses, n: int, *, shift: float = 0.0, accuracy: float = ACCURATE
+) -> tuple[Complex, Complex]:
+    """Eigenpairs of K v = λ M v nearest to −shift, by the inverse of K + shift·M.
+
+    Args:
+        tangent: K.
+        R: Section frames, shape (n_nodes, 3, 3).
+        mass: M.
+        n: How many.
+        shift: Added so that rigid motions do not make it singular; positive.
+        accuracy: Of 1/(λ + shift), over the largest.
+
+    Returns:
+        Values, ascending, and vectors, shape (n_unknowns, m), spins in the axes of the tangent.
+
+    Raises:
+        SingularTangentError: K + shift·M has no inverse.
+    """
+    times, free = _compliance(tangent, R, mass, shift)
+    θ, v, _ = leading(times, free, n, np.abs, accuracy)
+    kept = np.abs(θ) > np.finfo(float).tiny
+    λ, v = 1.0 / θ[kept] - shift, v[:, kept]
+    order = np.argsort(λ.real, kind="stable")
+    return λ[order], v[:, order]
+
+
+def _falling(tangent: Tangent, R: Array, mass: Masses, n: int, accuracy: float = ACCURATE) -> tuple[Complex, Complex]:
+    """Those with a negative real part, the ones nearest to zero; arguments as for `spectrum`."""
+    times, free = _compliance(tangent, R, mass, 0.0)
+    θ, v, largest = leading(times, free, n, lambda θ: -θ.real, accuracy, SLIGHT)
+    kept = θ.real < -SLIGHT * largest
+    return 1.0 / θ[kept], v[:, kept]
+
+
+def _compliance(
+    tangent: Tangent, R: Array, mass: Masses, shift: float
+) -> tuple[Callable[[Array], Array], NDArray[np.bool_]]:
+    """The operator (K + shift·M)⁻¹ M on columns, and where they may differ from zero."""
+    elements = mass.elements(R, tangent)
+    M = at_nodes(elements, tangent)
+    inverse = tangent.system.inverse(tangent.elements + shift * elements)
+    free = np.ones(tangent.system.n_unknowns, dtype=bool)
+    free[tangent.system.held] = False
+
+    def times(v: Array) -> Array:
+        return inverse.times(np.matmul(M, v.reshape(*M.shape[:2], -1)).reshape(v.shape) * free[:, None])
+
+    return times, free

@@ -1,0 +1,152 @@
+"""Size of the load steps where equilibrium is iterated to: the whole load first, halved on failure, grown when easy.
+
+A step fails if the iteration does, and if it steps over a critical point: where the state before was stable, the new
+one gives way and the loads push it that way, there is a branch that leads on, and half the step may find it. Where a
+symmetry keeps the loads from pushing, as on a perfect column, no step however small would leave the unstable branch.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from discrete.branches import Branches
+from discrete.predictor import Memory
+from discrete.statics import StepFailed, corners, targets
+from dolfinrod.result import StepLog
+
+if TYPE_CHECKING:
+    from discrete.neutral import PhaseCondition
+    from discrete.stability import Judge, Verdict
+    from discrete.state import Outcome, State
+    from discrete.statics import Path, Progress
+    from dolfinrod.scene import Scene
+
+__all__ = ["Walk"]
+
+# Halvings of an interval after which a step is too small to be taken, and to be taken back over a critical point.
+MOST_CUTS = 12
+MOST_CUTS_AT_A_CRITICAL_POINT = 8
+# A step ends at its target if it comes within this part of the way.
+NEAR = 1e-6
+# A step is followed by a longer one if it took no more iterations than this.
+EASY = 16
+# Part of an interval within which a critical point explains that a step could not be taken.
+CLOSE = 0.01
+# Turn of a section from the extrapolated state at which an unstable path may have been left [rad].
+STRAYED = 0.5
+
+
+class Walk:
+    """A path under growing loads.
+
+    Args:
+        phase: Solver of the scene with its free motions.
+        judge: Tells stable states.
+        scene: The problem.
+        path: Where to begin; grows.
+        t: Pseudo-time there.
+        stable: Whether the state there is stable.
+    """
+
+    def __init__(
+        self, phase: PhaseCondition, judge: Judge, scene: Scene, path: Path[State], t: float, *, stable: bool | None
+    ) -> None:
+        self._phase, self._judge, self._scene, self._path = phase, judge, scene, path
+        self._memory = Memory(phase.equilibrium, t, path.state)
+        self._branches = Branches(phase.equilibrium, judge, scene)
+        self._step, self._stable = np.inf, stable
+
+    def follow(self, progress: Progress | None) -> None:
+        """Follow the loads to their end.
+
+        Args:
+            progress: Called with every accepted step and the final pseudo-time.
+
+        Raises:
+            StepFailed: A step could not be taken after `MOST_CUTS` halvings.
+        """
+        kinks = corners(self._scene)
+        for target in targets(self._scene, self._memory.t, self._scene.motion.steps or 1):
+            self._reach(target, progress)
+            if target in kinks:
+                self._memory.forget()
+
+    def _reach(self, target: float, progress: Progress | None) -> None:
+        """Follow the loads over one interval."""
+        interval, cuts = target - self._memory.t, 0
+        while self._memory.t < target:
+            t = self._memory.t
+            trial = min(self._step, target - t)
+            t_next = target if trial >= (target - t) * (1.0 - NEAR) else t + trial
+            outcome, verdict = self._judged(self._attempt(t_next))
+            if self._unwanted(outcome, verdict, t_next):
+                if trial > interval / 2**MOST_CUTS_AT_A_CRITICAL_POINT:
+                    cuts, self._step = cuts + 1, trial / 2.0
+                    continue
+                outcome, verdict = self._pushed(outcome, verdict, t_next)
+            if verdict is None:
+                cuts, self._step = cuts + 1, trial / 2.0
+                if self._step <= interval / 2**MOST_CUTS:
+                    raise StepFailed(t=t, step=trial, reason=outcome.reason, critical=self._critical(interval))
+                continue
+            self._accept(outcome, verdict, t_next, cuts, progress)
+            # A step that the target has cut short says nothing against a longer one.
+            grown = 2.0 * trial if cuts == 0 and outcome.iterations <= EASY else trial
+            self._step, cuts = max(self._step, grown), 0
+
+    def _critical(self, interval: float) -> float | None:
+        """Pseudo-time close ahead of the last state at which the loads are critical, if there is one."""
+        found = self._branches.next_critical(self._memory.state, self._memory.t)
+        return found if found - self._memory.t < CLOSE * interval else None
+
+    def _attempt(self, t: float) -> Outcome:
+        """Equilibrium from the extrapolated state if that is a good guess, else from the last one.
+
+        On an unstable path, where other equilibria are close by, only the extrapolated state tells which one leads on.
+        """
+        guess = self._memory.ahead(t)
+        if guess is not None:
+            outcome = self._phase.find(guess.state, t, trust=guess.turned)
+            self._path.iterations += outcome.iterations
+            if outcome.converged or self._stable is False:
+                return outcome
+        outcome = self._phase.find(self._memory.state, t)
+        self._path.iterations += outcome.iterations
+        return outcome
+
+    def _judged(self, outcome: Outcome) -> tuple[Outcome, Verdict | None]:
+        """An attempt, and how stable its end is; None where there is none."""
+        return outcome, self._judge.verdict(outcome.tangent, outcome.state.R) if outcome.converged else None
+
+    def _unwanted(self, outcome: Outcome, verdict: Verdict | None, t: float) -> bool:
+        """Whether another branch may lead on: beyond a critical point, or where an unstable path was not kept to."""
+        if verdict is None or verdict.stable:
+            return False
+        if self._stable is False:
+            return self._memory.extrapolates and outcome.turned > STRAYED
+        return (
+            bool(self._stable)
+            and verdict.gives_way
+            and self._branches.missed(self._memory.state, self._memory.t, outcome, t)
+        )
+
+    def _pushed(self, outcome: Outcome, verdict: Verdict | None, t: float) -> tuple[Outcome, Verdict | None]:
+        """The stable state that the loads push the rod to from the last one, or else what was found."""
+        if not self._stable:
+            return outcome, verdict
+        guess = self._branches.sent_ahead(self._memory.state, self._memory.t)
+        other = self._phase.find(guess, t)
+        self._path.iterations += other.iterations
+        _, found = self._judged(other)
+        return (other, found) if found is not None and found.stable else (outcome, verdict)
+
+    def _accept(self, outcome: Outcome, verdict: Verdict, t: float, cuts: int, progress: Progress | None) -> None:
+        equilibrium, path = self._phase.equilibrium, self._path
+        path.state, self._stable = outcome.state, verdict.stable
+        self._memory.add(t, outcome.state)
+        kept = equilibrium.snapshot(outcome.state, t)
+        energy = kept.energy * equilibrium.mesh.units.moment
+        row = StepLog(t, outcome.iterations, cuts, outcome.residual, energy, verdict.stable)
+        path.accept(kept, row, progress, self._scene.motion.t_end)

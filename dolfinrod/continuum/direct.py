@@ -1,0 +1,42 @@
+"""Direct solution with pivoting, as zero compliances and multipliers need it: a band on one rank, MUMPS on several."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from petsc4py import PETSc
+
+from dolfinrod.continuum.banded import BandedLU
+
+if TYPE_CHECKING:
+    from dolfinrod.continuum.banded import Band
+
+__all__ = ["lu"]
+
+# Per cent of extra room for what MUMPS puts off, the zero pivots of multipliers; the fifth it takes by itself is short.
+ROOM = 200
+
+
+def lu(pc: PETSc.PC, A: PETSc.Mat, band: Band | None) -> BandedLU | None:
+    """Make a preconditioner the LU factors of a tangent.
+
+    Args:
+        pc: The preconditioner.
+        A: The tangent.
+        band: Its layout as a band; None on several ranks.
+
+    Returns:
+        The band's factors, or None where MUMPS has them.
+    """
+    if band is None:
+        pc.setType(PETSc.PC.Type.LU)
+        pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+        pc.setOperators(A)
+        pc.setFactorSetUpSolverType()
+        pc.getFactorMatrix().setMumpsIcntl(14, ROOM)
+        return None
+    factors = BandedLU(band)
+    pc.setType(PETSc.PC.Type.PYTHON)
+    pc.setPythonContext(factors)
+    pc.setOperators(A)
+    return factors

@@ -1,0 +1,122 @@
+"""Unstable directions just below and just above known critical points, and the way the stepping takes round them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import dolfinrod as dr
+from tests.scenes import both_kinematics
+
+EULER = np.pi**2 / 4  # clamped and free, EI = L = 1
+RIGID = dr.Section(GJ=0.8, EI=1.0, rigid={"shear", "extension"})
+# Simo–Reissner, P (1 − P/EA + P/GA) = π²/4: case F1-Pcr-EA1200.0-GA500.0 of the references, round section.
+SOFT, SOFT_CRITICAL = dr.Section(EA=1200.0, GA=500.0, GJ=0.8, EI=1.0), 2.460338954539246
+STRIP = dr.Section(GJ=0.8, EI=(1.0, 30.0), rigid={"shear", "extension"})
+
+
+def straight(section: dr.Section, d2: tuple[float, float, float] | None = None) -> dr.Rod:
+    return dr.Rod.straight(length=1.0, section=section, d2=d2)
+
+
+def column(section: dr.Section, force: float, lateral: float = 0.0) -> dr.Scene:
+    load = dr.PointForce((-force, lateral, 0.0), at="end")
+    return dr.Scene([straight(section)], [dr.Clamp("start")], [load], motion=dr.Static(steps=1))
+
+
+@both_kinematics
+@pytest.mark.parametrize(("section", "critical"), [(RIGID, EULER), (SOFT, SOFT_CRITICAL)], ids=["rigid", "soft"])
+@pytest.mark.parametrize("degree", [2, 3])
+def test_a_column_loses_a_direction_at_each_eulerian_load(kinematics, section, critical, degree):
+    per_load = 1 if isinstance(kinematics, dr.Planar) else 2  # a round column may go any way
+    for factor, lost in ((0.9999, 0), (1.0001, 1)):
+        log = dr.solve(column(section, factor * critical), elements=16, degree=degree, kinematics=kinematics).log[-1]
+        assert log.stable == (lost == 0)
+        assert log.unstable_directions == lost * per_load
+    if section is RIGID:
+        third = dr.solve(column(section, 9.1 * EULER), elements=16, degree=degree, kinematics=kinematics)
+        assert third.log[-1].unstable_directions == 2 * per_load
+
+
+def test_a_planar_column_is_judged_in_space():
+    """Weak about d2, that is out of the plane of its load: it buckles there although the plane holds it."""
+    weak = dr.Section(GJ=0.8, EI=(0.5, 1.0), rigid={"shear", "extension"})
+    scene = column(weak, 0.75 * EULER)
+    judged, in_plane = (dr.solve(scene, elements=8, kinematics=k) for k in (None, dr.Planar((0.0, 0.0, 1.0))))
+    assert judged.formulation.kinematics == in_plane.formulation.kinematics == "planar"
+    assert judged.log[-1].unstable_directions == 1
+    assert in_plane.log[-1].stable
+    assert any("in the plane" in note for note in in_plane.formulation.notes)
+
+
+@pytest.mark.parametrize("ratio", [20.0, 100.0])
+def test_a_strip_bent_in_its_stiff_plane_is_flagged_at_the_lateral_buckling_load(ratio):
+    """Case I1 of the references, pre-buckling deflection included: P L²/√(EI2 GJ) = 4.2748 and 4.0596 with GJ = EI2."""
+    critical = {20.0: 4.2748, 100.0: 4.0596}[ratio]
+    section = dr.Section(GJ=1.0, EI=(1.0, ratio), rigid={"shear", "extension"})
+    for factor, stable in ((0.999, True), (1.001, False)):
+        load = dr.PointForce((0.0, factor * critical, 0.0), at="end")
+        result = dr.solve(dr.Scene([straight(section, d2=(0, 1, 0))], [dr.Clamp("start")], [load]), elements=16)
+        assert result.formulation.kinematics == "planar"
+        assert result.log[-1].stable is stable
+
+
+@both_kinematics
+def test_with_a_whiff_of_lateral_load_the_path_ends_on_the_buckled_branch(kinematics):
+    """The buckled column at 1.5 P_cr: tip slope and place between those of cases F2a-alpha80 and F2a-alpha120."""
+    result = dr.solve(column(RIGID, 1.5 * EULER, 1e-3 * 1.5 * EULER), elements=16, kinematics=kinematics)
+    assert all(step.stable for step in result.log)
+    # Clamped and free, P/P_cr = 1.5184 at a tip slope of 100°: x = 0.3490, y = 0.7915 (F2a-alpha100).
+    np.testing.assert_allclose(result.tip[:2], [0.3490, 0.7915], atol=0.02)
+
+
+@both_kinematics
+def test_a_perfect_column_goes_on_straight_and_is_flagged(kinematics):
+    result = dr.solve(column(RIGID, 1.5 * EULER), elements=8, kinematics=kinematics)
+    np.testing.assert_allclose(result.tip, [1.0, 0.0, 0.0], atol=1e-12)
+    stable = [step.stable for step in result.log]
+    last = stable.index(False)
+    assert stable == [True] * last + [False] * (len(stable) - last)
+    # The critical point is located to a 256th of the way.
+    assert result.log[last - 1].t < 1.0 / 1.5 < result.log[last].t
+    assert result.log[last].t - result.log[last - 1].t <= 1.01 / 256.0
+
+
+@both_kinematics
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_hanging_is_stable_and_standing_on_a_pin_is_not(kinematics, direction):
+    rod = dr.Rod.straight(length=1.0, section=SOFT, direction=(0.0, direction, 0.0))
+    result = dr.solve(dr.Scene([rod], [dr.Pin("start")], [dr.LineForce((0.0, -0.1, 0.0))]), kinematics=kinematics)
+    assert result.tip[1] == pytest.approx(direction, abs=1e-3)
+    assert result.log[-1].stable == (direction < 0)
+
+
+def test_a_neutral_turn_does_not_count():
+    """Between two pins in space: the turn about their line neither raises nor lowers the energy."""
+    compressed = dr.PointForce((-0.9 * np.pi**2, 0.0, 0.0), at="end")
+    sliding = dr.Guide("end", free={"x", "rx", "ry", "rz"})
+    for factor, lost in ((0.99, 0), (1.01, 2)):
+        load = dr.PointForce((-factor * np.pi**2, 0.0, 0.0), at="end")
+        log = dr.solve(dr.Scene([straight(RIGID)], [dr.Pin("start"), sliding], [load]), kinematics=dr.Spatial()).log[-1]
+        assert log.unstable_directions == lost
+    assert compressed.force[0] < 0
+
+
+def test_an_axial_moment_on_a_section_that_turns_about_its_axis_has_a_potential():
+    """Clamped rod, its end free to slide and turn about the axis under a moment M: M L/EI = 8.986818915818128 (G12)."""
+    sliding = dr.Guide("end", free={"x", "rx"})
+    for factor, lost in ((0.99, 0), (1.01, 2)):
+        load = dr.PointMoment((factor * 8.986818915818128, 0.0, 0.0), at="end")
+        log = dr.solve(dr.Scene([straight(RIGID)], [dr.Clamp("start"), sliding], [load]), kinematics=dr.Spatial()).log
+        assert log[-1].unstable_directions == lost
+
+
+@pytest.mark.parametrize(("force", "stable"), [(19.0, True), (21.0, False)])
+def test_a_follower_load_makes_a_column_flutter(force, stable):
+    """Beck's column, uniform mass, no rotary inertia: P L²/EI = 20.05 (Beck 1952, ZAMP 3:225)."""
+    section = dr.Section(GJ=0.8, EI=1.0, rhoA=1.0, rhoI=(1e-9, 1e-9, 1e-9), rigid={"shear", "extension"})
+    load = dr.FollowerForce((-force, 0.0, 0.0), at="end")
+    scene = dr.Scene([straight(section)], [dr.Clamp("start")], [load])
+    log = dr.solve(scene, kinematics=dr.Planar((0.0, 0.0, 1.0))).log
+    assert log[-1].stable is stable
+    assert log[-1].unstable_directions == 0

@@ -1,0 +1,231 @@
+"""Critical loads and frequencies: order 2 in the element length, multiplicities, masses of the paper."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import discrete
+import dolfinrod as dr
+from tests.scenes import FLAT, KIRCHHOFF, SKEW, Pose, orders
+
+SLIDING = dr.Guide("end", free={"x"})
+PINNED = dr.Guide("end", free={"x", "rx", "ry", "rz"})
+ENDS = {
+    "clamped-free": [dr.Clamp("start")],
+    "pinned": [dr.Pin("start"), PINNED],
+    "clamped-pinned": [dr.Clamp("start"), PINNED],
+    "clamped": [dr.Clamp("start"), SLIDING],
+}
+# Euler: cases F1, EA and GA infinite, in EI/L².
+EULER = {
+    "clamped-free": 2.4674011002723395,
+    "pinned": 9.869604401089358,
+    "clamped-pinned": 20.19072855642663,
+    "clamped": 39.47841760435743,
+}
+HEAVY = dr.Section(GJ=1.0, EI=1.0, rhoA=1.0, rigid={"shear", "extension"})
+# Up, then hold: compress first, twist later.
+FIRST, LATER = ((0.0, 0.0), (1.0, 1.0)), ((1.0, 0.0), (2.0, 1.0))
+
+
+def column(supports, section=KIRCHHOFF, force: float = 1.0) -> dr.Scene:
+    return dr.Scene([FLAT.straight(section)], supports, [dr.PointForce((-force, 0, 0), "end")])
+
+
+@pytest.mark.parametrize("ends", ENDS)
+def test_eulers_columns_buckle_in_both_planes_with_order_two(ends):
+    n = [10, 20, 40]
+    found = [discrete.buckling(column(ENDS[ends]), modes=2, elements=k) for k in n]
+    errors = [b.factors[0] - EULER[ends] for b in found]
+    assert orders(n, errors) == pytest.approx(2.0, abs=0.03)
+    assert errors[-1] < 2.5e-3 * EULER[ends]
+    assert found[-1].multiplicity.tolist() == [2, 2]
+
+
+def test_one_element_buckles_at_twelve_over_pi_squared():
+    """process.md 1.4: 3 EI/l² for the paper's F_n/l; rigid extension stands for EA = 1e8."""
+    assert discrete.buckling(column(ENDS["clamped-free"]), modes=1, elements=1).factors == pytest.approx(
+        [3.0], rel=1e-6
+    )
+
+
+@pytest.mark.parametrize("ends", ["clamped-free", "pinned", "clamped"])
+def test_compression_before_buckling_is_in_the_critical_load(ends):
+    """P (1 − P/EA) = P_E without shear, F1; the mesh sees its own P_E, that of `buckling` of the inextensible rod."""
+    EA, n = 1200.0, 20
+    P_E = discrete.buckling(column(ENDS[ends]), modes=1, elements=n).factors[0]
+    section = dr.Section(EA=EA, GA=1.0, GJ=1.0, EI=1.0)
+    found = discrete.critical(column(ENDS[ends], section, 60.0), modes=2, elements=n)
+    P = 60.0 * found.factors[0]
+    assert P * (1 - P / EA) == pytest.approx(P_E, rel=2e-3)
+    assert found.multiplicity.tolist() == [2, 2]
+    assert found.at.t[-1] < found.factors[0]
+
+
+def test_modes_of_a_column_are_sines_and_normalised():
+    found = discrete.buckling(column(ENDS["pinned"]), modes=4, elements=20)
+    shape = found.rods[0]
+    assert shape.displacement.shape == shape.spin.shape == (4, 21, 3)
+    size = np.linalg.norm(shape.displacement, axis=2)
+    assert size.max(axis=1) == pytest.approx(1.0)
+    for k, wave in enumerate((1, 1, 2, 2)):
+        assert size[k] == pytest.approx(np.abs(np.sin(wave * np.pi * shape.s)), abs=1e-2)
+
+
+def test_a_heavy_column_buckles_under_its_own_weight():
+    """Greenhill, case J3: w L³/EI = 7.837347438943484."""
+    n = [10, 20, 40]
+    scene = dr.Scene([FLAT.straight(HEAVY)], [dr.Clamp("start")], [dr.Gravity((-10.0, 0.0, 0.0))])
+    found = [discrete.critical(scene, modes=2, elements=k) for k in n]
+    errors = [10.0 * b.factors[0] - 7.837347438943484 for b in found]
+    assert orders(n, errors) == pytest.approx(2.0, abs=0.05)
+    assert abs(errors[-1]) < 1e-3
+    assert found[-1].multiplicity.tolist() == [2, 2]
+
+
+def greenhill(compression: float, moment: float) -> dr.Scene:
+    """Pinned rod, compressed, then twisted by opposite dead couples."""
+    loads = [
+        dr.PointForce((-compression, 0, 0), "end", history=FIRST),
+        dr.PointMoment((moment, 0, 0), "end", history=LATER),
+        dr.PointMoment((-moment, 0, 0), "start", history=LATER),
+    ]
+    return dr.Scene([FLAT.straight(KIRCHHOFF)], ENDS["pinned"], loads, motion=dr.Static(t_end=2.0))
+
+
+@pytest.mark.parametrize(("compression", "moment"), [(5.0, 4.413436031524354), (-20.0, 10.930618354162652)])
+def test_greenhills_rod_under_thrust_and_couple(compression, moment):
+    """Cases G12: (M/2EI)² + P/EI = (π/L)²; compressed first, then twisted to the critical couple."""
+    n = [20, 40]
+    errors = [
+        20.0 * (discrete.critical(greenhill(compression, 20.0), modes=1, elements=k).factors[0] - 1.0) - moment
+        for k in n
+    ]
+    assert orders(n, errors) == pytest.approx(2.0, abs=0.05)
+    assert abs(errors[-1]) < 2e-3 * moment
+
+
+def test_twist_buckling_of_a_clamped_rod():
+    """Case G12-P0: M L/EI = 8.986818915818128, tan(β/2) = β/2; double for a round section."""
+    n = [20, 40]
+    supports = [dr.Clamp("start"), dr.Guide("end", free={"x", "rx"})]
+    scene = dr.Scene([FLAT.straight(KIRCHHOFF)], supports, [dr.PointMoment((12.0, 0, 0), "end")])
+    found = [discrete.critical(scene, modes=2, elements=k) for k in n]
+    errors = [12.0 * b.factors[0] - 8.986818915818128 for b in found]
+    assert orders(n, errors) == pytest.approx(2.0, abs=0.05)
+    assert found[-1].multiplicity.tolist() == [2, 2]
+
+
+@pytest.mark.parametrize(("EI3", "P"), [(100.0, 4.0596284170096615), (20.0, 4.274845164961501)])
+@pytest.mark.parametrize("pose", [FLAT, pytest.param(SKEW, marks=pytest.mark.slow)], ids=["flat", "skew"])
+def test_a_strip_buckles_sideways_after_it_has_bent(EI3, P, pose: Pose):
+    """Prandtl–Michell with the deflection before it, cases I2 (Kirchhoff)."""
+    n = [20, 40]
+    section = dr.Section(GJ=1.0, EI=(1.0, EI3), rigid={"shear", "extension"})
+    scene = dr.Scene(
+        [pose.straight(section)], [dr.Clamp("start")], [dr.PointForce(pose.turned((0.0, -6.0, 0.0)), "end")]
+    )
+    errors = [6.0 * discrete.critical(scene, modes=1, elements=k).factors[0] - P for k in n]
+    assert orders(n, errors) == pytest.approx(2.0, abs=0.02)
+    assert abs(errors[-1]) < 2e-3
+
+
+def test_a_path_without_critical_points_has_none():
+    found = discrete.critical(column(ENDS["pinned"], force=5.0), elements=10)
+    assert found.factors.shape == found.multiplicity.shape == (0,)
+    assert found.rods[0].displacement.shape == (0, 11, 3)
+    pulled = discrete.buckling(column(ENDS["clamped-free"], force=-1.0), elements=10)
+    assert len(pulled.factors) == 0
+
+
+def test_an_estimate_from_a_loaded_state_is_the_better_the_nearer_it_is():
+    section = dr.Section(GJ=1.0, EI=(1.0, 20.0), rigid={"shear", "extension"})
+
+    def strip(P: float) -> dr.Scene:
+        history = ((0.0, 0.0), (10.0, 10.0))
+        return dr.Scene(
+            [FLAT.straight(section)],
+            [dr.Clamp("start")],
+            [dr.PointForce((0.0, -1.0, 0.0), "end", history=history)],
+            motion=dr.Static(t_end=P),
+        )
+
+    exact = discrete.critical(strip(6.0), modes=1, elements=20).factors[0]
+    errors = []
+    for P in (2.0, 3.0, 4.0):
+        scene = strip(P)
+        found = discrete.buckling(scene, modes=1, at=discrete.solve(scene, elements=20))
+        errors.append(abs(found.factors[0] - exact))
+    assert errors[0] > 2 * errors[1] > 8 * errors[2]
+
+
+@pytest.mark.parametrize(
+    ("n", "ratios"),
+    [
+        (8, (0.9899, 0.9567, 0.9195)),
+        (20, (0.9984, 0.9927, 0.9857)),
+        (40, (0.9996, 0.9982, 0.9964)),
+        (80, (0.9999, 0.9995, 0.9991)),
+    ],
+)
+def test_frequencies_of_the_papers_nodes(n, ratios):
+    """process.md 1.5, accuracy of the rigid-node model, over the exact ones of case K1."""
+    found = discrete.modes(dr.Scene([FLAT.straight(HEAVY)], [dr.Clamp("start")]), elements=n)
+    exact = np.array([1.8751040687119611, 4.694091132974175, 7.854757438237613]) ** 2
+    assert found.omega.real[::2] / exact == pytest.approx(ratios, abs=5.1e-5)
+    assert found.omega.real[1::2] == pytest.approx(found.omega.real[::2])
+    assert found.multiplicity.tolist() == [2] * 6
+    assert found.stable
+
+
+def test_frequencies_of_stretching_and_twisting_have_order_two():
+    """Case K3, fixed–free: (2n − 1) π c/2L with c² = EA/ρA = 300 and GJ/ρI₁ = 100."""
+    section = dr.Section(EA=300.0, GA=1.0, GJ=2.0, EI=1.0, rhoA=1.0, rhoI=(0.02, 0.01, 0.01))
+    n = [10, 20]
+    found = [
+        discrete.modes(dr.Scene([FLAT.straight(section)], [dr.Clamp("start")]), modes=10, elements=k).omega.real
+        for k in n
+    ]
+    for exact in (0.5 * np.pi * np.sqrt(300.0), 0.5 * np.pi * 10.0):
+        errors = [np.abs(omega - exact).min() for omega in found]
+        assert orders(n, errors) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize("tension", [10.0, 0.0, -5.0])
+def test_tension_raises_frequencies(tension):
+    """Case K4: ω_n² = (nπ)⁴ + T (nπ)²; frequencies in Hz."""
+    scene = dr.Scene([FLAT.straight(HEAVY)], ENDS["pinned"], [dr.PointForce((tension, 0, 0), "end")])
+    n = [20, 40]
+    exact = np.sqrt(np.pi**4 + tension * np.pi**2)
+    found = [discrete.modes(scene, modes=2, at=discrete.solve(scene, elements=k)) for k in n]
+    assert found[-1].omega.real == pytest.approx([exact] * 2, rel=5e-4)
+    assert found[-1].frequencies == pytest.approx([exact / (2 * np.pi)] * 2, rel=5e-4)
+    if tension >= 0.0:
+        assert orders(n, [exact - b.omega[0].real for b in found]) == pytest.approx(2.0, abs=0.02)
+
+
+def test_a_free_rod_has_rigid_modes_of_zero_frequency():
+    """Case K1 free–free; no rotary inertia, so that only five rigid motions have mass."""
+    found = discrete.modes(dr.Scene([SKEW.straight(HEAVY)], []), modes=7, elements=80)
+    assert np.abs(found.omega[:5]).max() == 0.0
+    assert found.omega.real[5:] == pytest.approx(4.730040744862704**2, rel=2e-3)
+
+
+def test_a_state_beyond_its_critical_load_has_imaginary_frequencies():
+    section = dr.Section(GJ=1.0, EI=1.0, rhoA=1.0, rigid={"shear", "extension"})
+    scene = column(ENDS["pinned"], section, 12.0)
+    found = discrete.modes(scene, modes=4, at=discrete.solve(scene, elements=20))
+    assert found.omega[:2].imag == pytest.approx([np.sqrt(12.0 * np.pi**2 - np.pi**4)] * 2, rel=0.02)
+    assert not found.stable
+
+
+def test_what_is_missing_is_said_in_words():
+    with pytest.raises(dr.SceneError, match=r"rods\[0\]\.section\.rhoA .* needed for frequencies"):
+        discrete.modes(column(ENDS["pinned"]))
+    with pytest.raises(dr.SceneError, match="nothing varies"):
+        discrete.buckling(dr.Scene([FLAT.straight(HEAVY)], [dr.Clamp("start")]))
+    with pytest.raises(dr.SceneError, match="result of this scene"):
+        discrete.buckling(column(ENDS["pinned"]), at=discrete.solve(column(ENDS["clamped"]), elements=4))
+    with pytest.raises(dr.SceneError, match="modes"):
+        discrete.buckling(column(ENDS["pinned"]), modes=0)
