@@ -115,7 +115,7 @@ def test_small_steps_end_where_large_ones_do():
 
 
 def test_a_mechanism_is_named():
-    torque = dr.PointMoment((1.0, 0.0, 0.0), "end")
+    torque = dr.FollowerMoment((1.0, 0.0, 0.0), "end")
     supports = [dr.Pin("start"), dr.Guide("end", free={"x", "rx", "ry", "rz"})]
     with pytest.raises(dr.NotConverged, match="Likely a mechanism"):
         discrete.solve(dr.Scene([FLAT.straight(KIRCHHOFF)], supports, [torque]), elements=10)
