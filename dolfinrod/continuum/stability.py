@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Judge", "Verdict", "judging"]
 
+# Per cent of extra room for MUMPS: near critical points it puts off far more pivots than in Newton's method.
+ROOM = 5000
 # Eigenvalues looked at where loads have no potential.
 FEW = 4
 # How well they need to be known: their signs are asked for.
@@ -148,7 +150,8 @@ class Judge:
             self._unsymmetric = PETSc.PC().create(self._problem.discretization.comm)
             self._band = lu(self._unsymmetric, A, self._problem.discretization.band)
             if self._band is None:
-                self._unsymmetric.getFactorMatrix().setMumpsIcntl(33, 1)
+                for option, value in ((14, ROOM), (33, 1)):
+                    self._unsymmetric.getFactorMatrix().setMumpsIcntl(option, value)
         A.setOption(PETSc.Mat.Option.SYMMETRIC, False)
         self._unsymmetric.setOperators(A)
         self._unsymmetric.setUp()
@@ -166,7 +169,7 @@ class Judge:
             pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
             pc.setFactorSetUpSolverType()
             # Pivots are counted without ScaLAPACK at the root and with null pivots on record; delayed ones want room.
-            for option, value in ((13, 1), (14, 200), (24, 1)):
+            for option, value in ((13, 1), (14, ROOM), (24, 1)):
                 pc.getFactorMatrix().setMumpsIcntl(option, value)
         A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         pc.setOperators(A)
