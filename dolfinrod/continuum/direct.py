@@ -11,10 +11,21 @@ from dolfinrod.continuum.banded import BandedLU
 if TYPE_CHECKING:
     from dolfinrod.continuum.banded import Band
 
-__all__ = ["lu"]
+__all__ = ["LIBRARY_ERROR", "everywhere", "lu"]
+
+# PETSC_ERR_LIB, an error in a library that PETSc calls.
+LIBRARY_ERROR = 76
 
 # Per cent of extra room for what MUMPS puts off, the zero pivots of multipliers; the fifth it takes by itself is short.
 ROOM = 200
+
+
+def everywhere(A: PETSc.Mat, whole: PETSc.Mat | None = None) -> PETSc.Mat:
+    """The whole matrix on every rank, new or in the memory of an earlier one of the same pattern."""
+    every = PETSc.IS().createStride(A.getSize()[0], step=1, comm=PETSc.COMM_SELF)
+    (gathered,) = A.createSubMatrices(every, every, None if whole is None else [whole])
+    every.destroy()
+    return gathered
 
 
 def lu(pc: PETSc.PC, A: PETSc.Mat, band: Band | None) -> BandedLU | None:

@@ -16,7 +16,7 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from dolfinrod.continuum.direct import lu
+from dolfinrod.continuum.direct import LIBRARY_ERROR, lu
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,8 +38,6 @@ MOST_ITERATIONS = 50
 
 LOST = PETSc.SNES.ConvergedReason.DIVERGED_DTOL
 SINGULAR = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
-# PETSC_ERR_LIB, an error in a library that PETSc calls.
-LIBRARY_ERROR = 76
 REASONS = {
     PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "the residual is not a number",
     PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: f"Newton's method did not settle in {MOST_ITERATIONS} iterations",

@@ -22,7 +22,8 @@ from slepc4py import SLEPc
 
 import numpy as np
 
-from dolfinrod.continuum.direct import lu
+from dolfinrod.continuum import backend
+from dolfinrod.continuum.inertia import Determinant, NegativePivots
 from dolfinrod.continuum.lift import lifted
 from dolfinrod.continuum.mass import densities
 from dolfinrod.continuum.neutral import PhaseCondition
@@ -38,8 +39,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Judge", "Verdict", "judging"]
 
-# Per cent of extra room for MUMPS: near critical points it puts off far more pivots than in Newton's method.
-ROOM = 5000
 # Eigenvalues looked at where loads have no potential.
 FEW = 4
 # How well they need to be known: their signs are asked for.
@@ -80,8 +79,8 @@ class Judge:
         self._n_dual = int(d.comm.allreduce(len(np.setdiff1d(duals, problem.constraints.dofs))))
         self._densities = densities(problem.scene)
         self._lumped: PETSc.Mat | None = None
-        self._symmetric: PETSc.PC | None = None
-        self._unsymmetric: PETSc.PC | None = None
+        self._pivots = NegativePivots(d.comm)
+        self._determinant: Determinant | None = None
 
     def verdict(self, state: State, t: float, *, closely: bool) -> Verdict:
         """Stability of an equilibrium.
@@ -98,15 +97,18 @@ class Judge:
             self._phase.hold_null(A)
         problem.assemble_tangent(A, on_sphere=True)
         if problem.conservative:
-            unstable = self._inertia(A) - self._n_dual
+            unstable = self._pivots.count(A) - self._n_dual
             return Verdict(unstable == 0, unstable, avoidable=unstable > 0)
-        sign = self._determinant(A) * (-1.0) ** self._n_dual
-        if sign < 0.0:
+        if self._determinant is None:
+            self._determinant = Determinant(A, problem.discretization.band)
+        if self._determinant.sign(A) * (-1.0) ** self._n_dual < 0.0:
             return Verdict(False)
-        return self._vibrating(A) if closely else Verdict(None)
+        if not closely:
+            return Verdict(None)
+        return problem.discretization.comm.bcast(self._vibrating(self._determinant.matrix, self._determinant.pc))
 
-    def _vibrating(self, K: PETSc.Mat) -> Verdict:
-        """From the vibrations nearest to rest, ω² = 1/θ with θ an eigenvalue of K⁻¹M, factored already."""
+    def _vibrating(self, K: PETSc.Mat, factors: PETSc.PC) -> Verdict:
+        """From the vibrations nearest to rest, ω² = 1/θ with θ an eigenvalue of K⁻¹M; each rank by itself."""
         eps = SLEPc.EPS().create(K.getComm())
         eps.setOptionsPrefix("rod_stability_")
         eps.setOperators(self._mass(K), K)
@@ -114,7 +116,7 @@ class Judge:
         solver = PETSc.KSP().create(K.getComm())
         solver.setType(PETSc.KSP.Type.PREONLY)
         solver.setOperators(K)
-        solver.setPC(self._unsymmetric)
+        solver.setPC(factors)
         eps.getST().setKSP(solver)
         eps.setDimensions(FEW)
         eps.setTolerances(ROUGH)
@@ -132,55 +134,27 @@ class Judge:
             problem, d = self._problem, self._problem.discretization
             mine = slice(0, d.n_owned_cells)
             share = np.diff(problem.ends[mine], axis=1)[:, :, None] / (d.degree + 1)
-            m = np.zeros(len(problem.x))
+            lumped = backend.function(d.space)
+            m = lumped.x.array
             for field, density in zip(("r", "q"), self._densities, strict=True):
                 np.add.at(m, d.dofs[field][mine], share * density[problem.rod[mine], None, None])
+            backend.sum_over_ranks(lumped)
             m[problem.constraints.dofs] = 0.0
             self._lumped = K.duplicate(copy=False)
             diagonal = K.createVecLeft()
-            diagonal.array[:] = m[: d.n_owned]
+            diagonal.array[:] = np.concatenate(d.comm.allgather(m[: d.n_owned]))
             self._lumped.setDiagonal(diagonal)
             self._lumped.assemble()
             diagonal.destroy()
         return self._lumped
 
-    def _determinant(self, A: PETSc.Mat) -> float:
-        """Sign of the determinant of a tangent that is not symmetric; its factors stay."""
-        if self._unsymmetric is None:
-            self._unsymmetric = PETSc.PC().create(self._problem.discretization.comm)
-            self._band = lu(self._unsymmetric, A, self._problem.discretization.band)
-            if self._band is None:
-                for option, value in ((14, ROOM), (33, 1)):
-                    self._unsymmetric.getFactorMatrix().setMumpsIcntl(option, value)
-        A.setOption(PETSc.Mat.Option.SYMMETRIC, False)
-        self._unsymmetric.setOperators(A)
-        self._unsymmetric.setUp()
-        if self._band is not None:
-            return self._band.sign()
-        return float(np.sign(self._unsymmetric.getFactorMatrix().getMumpsRinfog(12)))
-
-    def _inertia(self, A: PETSc.Mat) -> int:
-        """Negative pivots of a symmetric tangent."""
-        pc = self._symmetric
-        if pc is None:
-            pc = self._symmetric = PETSc.PC().create(self._problem.discretization.comm)
-            pc.setOperators(A)
-            pc.setType(PETSc.PC.Type.CHOLESKY)
-            pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
-            pc.setFactorSetUpSolverType()
-            # Pivots are counted without ScaLAPACK at the root and with null pivots on record; delayed ones want room.
-            for option, value in ((13, 1), (14, ROOM), (24, 1)):
-                pc.getFactorMatrix().setMumpsIcntl(option, value)
-        A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-        pc.setOperators(A)
-        pc.setUp()
-        return int(pc.getFactorMatrix().getInertia()[0])
-
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together."""
-        for owned in (self._symmetric, self._unsymmetric, self._lumped):
-            if owned is not None:
-                owned.destroy()
+        self._pivots.close()
+        if self._determinant is not None:
+            self._determinant.close()
+        if self._lumped is not None:
+            self._lumped.destroy()
 
 
 class LiftedJudge(Judge):
