@@ -100,6 +100,7 @@ class Statistics:
         seconds_compile: Time spent on making or loading compiled forms [s].
         seconds_setup: Mesh, spaces and solver objects [s].
         seconds_solve: Load stepping, from first to last iteration [s].
+        seconds_stability: Judging which equilibria are stable [s].
     """
 
     dofs: int
@@ -109,6 +110,7 @@ class Statistics:
     seconds_compile: float = 0.0
     seconds_setup: float = 0.0
     seconds_solve: float = 0.0
+    seconds_stability: float = 0.0
 
 
 @dataclass(frozen=True)

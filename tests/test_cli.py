@@ -115,6 +115,37 @@ def test_tables_hold_every_node_at_every_stored_time(dolfinrod, scene_file, shar
         np.testing.assert_allclose(table[name], values, atol=1e-12)
 
 
+@pytest.mark.parametrize(("push", "said"), [(9.0, "; stable"), (11.0, "; unstable in 1 direction")])
+def test_a_column_says_whether_it_stands(dolfinrod, tmp_path_factory, shared_path, push, said):
+    """Euler's load of a column on two pins is π² EI/L²; more than one step is listed."""
+    scene = text_file(
+        shared_path / "column.toml",
+        f"""
+        [section.s]
+        rigid = ["extension", "shear"]
+        GJ = "1 N m**2"
+        EI = "1 N m**2"
+        [[rods]]
+        straight = {{ length = "1 m" }}
+        section = "s"
+        [[supports]]
+        pin = {{ at = "start" }}
+        [[supports]]
+        guide = {{ at = "end", free = ["x", "ry", "rz"] }}
+        [[loads]]
+        point_force = {{ at = "end", force = ["{-push} N", "0 N", "0 N"] }}
+        [motion.static]
+        steps = 2
+        """,
+    )
+    done = dolfinrod("run", scene, "--kinematics", "planar")
+    first, _, head, *rows = done.out.splitlines()
+    assert first.endswith(said)
+    assert head.split() == ["step", "t", "iterations", "cuts", "state"]
+    assert [row.split()[1] for row in rows] == ["0.5", "1"]
+    assert rows[0].endswith("stable")
+
+
 def test_both_models_are_written_side_by_side_and_agree(dolfinrod, scene_file, shared_path):
     done = dolfinrod("run", scene_file, "--model", "both", "--elements", 40, "--out", shared_path)
     assert done.code == 0

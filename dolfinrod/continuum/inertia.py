@@ -50,8 +50,9 @@ class NegativePivots:
             pc.setType(PETSc.PC.Type.CHOLESKY)
             pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
             pc.setFactorSetUpSolverType()
-            # Pivots are counted without ScaLAPACK at the root and with null pivots on record.
-            for option, value in ((13, 1), (14, self._room), (24, 1)):
+            # Pivots are counted without ScaLAPACK at the root and with null pivots on record. The ordering that MUMPS
+            # has for saddle points by itself takes a time quadratic in the number of elements.
+            for option, value in ((12, 1), (13, 1), (14, self._room), (24, 1)):
                 pc.getFactorMatrix().setMumpsIcntl(option, value)
         pc.setOperators(A)
         pc.setUp()

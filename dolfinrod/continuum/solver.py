@@ -93,7 +93,8 @@ def _path(
             factorizations=newton.factorizations,
             seconds_compile=compiling,
             seconds_setup=ready - started - compiling,
-            seconds_solve=time.perf_counter() - ready,
+            seconds_solve=time.perf_counter() - ready - path.seconds_stability,
+            seconds_stability=path.seconds_stability,
         )
         notes = phase.notes if in_space or rods.dim == 3 else (*phase.notes, "stability judged in the plane only")
         return record(problem, notes, readout, path, statistics, converged=failure is None), failure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -59,6 +60,7 @@ class Path:
         log: One row a step.
         iterations: All Newton iterations, failed attempts included.
         stable: Whether the last state is stable; None where that is not known.
+        seconds_stability: Time for finding that out, for all states [s].
     """
 
     t: list[float] = field(default_factory=list)
@@ -67,6 +69,7 @@ class Path:
     log: list[StepLog] = field(default_factory=list)
     iterations: int = 0
     stable: bool | None = None
+    seconds_stability: float = 0.0
 
 
 @dataclass
@@ -191,7 +194,12 @@ class Walk:
         if turn > ALIASED:
             return replace(outcome, converged=False, reason=COARSE.format(turn)), None, None
         state = self._readout.state()
-        return outcome, state, Verdict(None) if self._judge is None else self._judge.verdict(state, t, closely=closely)
+        if self._judge is None:
+            return outcome, state, Verdict(None)
+        started = time.perf_counter()
+        verdict = self._judge.verdict(state, t, closely=closely)
+        path.seconds_stability += time.perf_counter() - started
+        return outcome, state, verdict
 
     def _extrapolated(self, factor: float) -> State:
         """The last state, and what led to it once more, times a factor."""

@@ -8,25 +8,54 @@ from typing import TYPE_CHECKING
 from dolfinrod.scene import Planar, detect
 
 if TYPE_CHECKING:
-    from dolfinrod.result import Result
+    from dolfinrod.result import Result, StepLog
     from dolfinrod.scene import Rod, Scene
 
 __all__ = ["contents", "summary"]
 
+# Rows of a table of load steps beyond which its middle is left out.
+MOST_ROWS = 20
+
 
 def summary(model: str, result: Result) -> str:
-    """Outcome, cost and tip of a solve, two lines.
+    """Outcome, cost, stability and tip of a solve, and its load steps where there are several.
 
     Args:
         model: Who solved it.
         result: What was found.
     """
     cost, end = result.statistics, "converged at" if result.converged else "not converged beyond"
-    return (
+    state = f"; {_stability(result.log[-1])}" if result.log else ""
+    lines = [
         f"{model}: {end} t = {result.t[-1]:.6g}; {result.formulation.kinematics}, {cost.dofs} unknowns; "
         f"load steps: {cost.load_steps}, Newton iterations: {cost.newton_iterations}, "
-        f"{1e3 * cost.seconds_solve:.3g} ms\n  tip {_vector(result.tip, digits=10)} m"
-    )
+        f"{1e3 * cost.seconds_solve:.3g} ms{state}",
+        f"  tip {_vector(result.tip, digits=10)} m",
+        *(_steps(result.log) if len(result.log) > 1 else ()),
+    ]
+    return "\n".join(lines)
+
+
+def _steps(log: tuple[StepLog, ...]) -> list[str]:
+    """A table of load steps, the middle of a long one left to `result.json`."""
+    rows = [f"  {'step':>6}{'t':>12}{'iterations':>12}{'cuts':>6}  state"]
+    rows += [
+        f"  {k:6d}{row.t:12.6g}{row.iterations:12d}{row.cuts:6d}  {_stability(row)}" for k, row in enumerate(log, 1)
+    ]
+    if len(log) <= MOST_ROWS:
+        return rows
+    half = MOST_ROWS // 2
+    return [*rows[: half + 1], f"  {'...':>6}  {len(log) - 2 * half} more in Result.log", *rows[-half:]]
+
+
+def _stability(row: StepLog) -> str:
+    """What became known of the stability of an equilibrium."""
+    if row.stable is None:
+        return "stability not known"
+    if row.stable:
+        return "stable"
+    n = row.unstable_directions
+    return f"unstable in {n} direction{'s' * (n > 1)}" if n else "unstable"
 
 
 def contents(scene: Scene) -> list[str]:
