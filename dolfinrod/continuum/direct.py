@@ -11,7 +11,7 @@ from dolfinrod.continuum.banded import BandedLU
 if TYPE_CHECKING:
     from dolfinrod.continuum.banded import Band
 
-__all__ = ["LIBRARY_ERROR", "everywhere", "lu"]
+__all__ = ["LIBRARY_ERROR", "banded_lu", "everywhere", "lu"]
 
 # PETSC_ERR_LIB, an error in a library that PETSc calls.
 LIBRARY_ERROR = 76
@@ -46,6 +46,11 @@ def lu(pc: PETSc.PC, A: PETSc.Mat, band: Band | None) -> BandedLU | None:
         pc.setFactorSetUpSolverType()
         pc.getFactorMatrix().setMumpsIcntl(14, ROOM)
         return None
+    return banded_lu(pc, A, band)
+
+
+def banded_lu(pc: PETSc.PC, A: PETSc.Mat, band: Band) -> BandedLU:
+    """Make a preconditioner on one rank the banded LU factors of a matrix; these are returned."""
     factors = BandedLU(band)
     pc.setType(PETSc.PC.Type.PYTHON)
     pc.setPythonContext(factors)

@@ -8,7 +8,7 @@ from petsc4py import PETSc
 
 from dolfinrod.continuum.backend import order_by_neighbours
 from dolfinrod.continuum.banded import Band
-from dolfinrod.continuum.direct import LIBRARY_ERROR, everywhere, lu
+from dolfinrod.continuum.direct import LIBRARY_ERROR, banded_lu, everywhere
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -84,7 +84,9 @@ class Determinant:
         self._gathered = band is None
         self.matrix = everywhere(A) if band is None else A
         self.pc = PETSc.PC().create(PETSc.COMM_SELF)
-        self._lu = lu(self.pc, self.matrix, band or Band(self.matrix, order_by_neighbours(self.matrix)))
+        if band is None:
+            band = Band(self.matrix, order_by_neighbours(self.matrix))
+        self._lu = banded_lu(self.pc, self.matrix, band)
 
     def sign(self, A: PETSc.Mat) -> float:
         """1, −1, or 0 where the matrix is singular."""
