@@ -44,11 +44,12 @@ def critical(
 
     From an equilibrium at t the next critical point is predicted at t + μ, with an error of order μ². Each next
     equilibrium lies short of the prediction, so the last one is stable if the first was; a step that turns out to
-    have gone past a critical point, or that no equilibrium allows, is halved.
+    have gone past a critical point or to another branch, or that no equilibrium allows, is halved.
     """
     n = count(modes, "modes", MOST_MODES)
     with opened(scene, kinematics, comm, degree, elements) as session:
         session.begin(None)
+        session.judge_start()
         return _search(session, n)
 
 
@@ -72,16 +73,18 @@ def _search(session: Session, n: int) -> Buckling:
 
 def _stride(session: Session, t: float, n: int) -> Buckling:
     """Go on to t, or as far as no critical point lies behind; what is predicted from there."""
-    start, known = session.t, len(session.path.t)
+    start, known, stable = session.t, len(session.path.t), session.path.stable
     failure = StepFailed(t=start, step=t - start, reason="critical points follow one another too closely")
     for _ in range(MOST_HALVINGS):
         try:
             session.go_to(t)
-            found, passed = next_critical(session, n)
-            if passed <= start:
-                return found
+            # Stability once lost: a critical point lies behind, or Newton's method has found another branch.
+            if session.path.stable is not False or stable is False:
+                found, passed = next_critical(session, n)
+                if passed <= start:
+                    return found
         except StepFailed as failed:
             failure = failed
-        session.go_back(known)
+        session.go_back(known, stable=stable)
         t = 0.5 * (start + t)
     raise session.failed(failure)

@@ -19,8 +19,9 @@ from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
 from dolfinrod.continuum.solver import check_degree, choose, record
 from dolfinrod.continuum.spatial import SpatialRods
+from dolfinrod.continuum.stability import Judge, Verdict
 from dolfinrod.continuum.stepping import Path, StepFailed, Walk
-from dolfinrod.result import NotConverged, Statistics
+from dolfinrod.result import NotConverged, Result, Statistics
 from dolfinrod.scene import Planar, SceneError, Spatial
 from dolfinrod.scene.mechanism import advice
 from dolfinrod.scene.options import element_counts
@@ -28,10 +29,17 @@ from dolfinrod.scene.options import element_counts
 if TYPE_CHECKING:
     from dolfinrod.continuum.kinematics import Kinematics
     from dolfinrod.continuum.readout import State
-    from dolfinrod.result import Result
     from dolfinrod.scene import Scene
 
 __all__ = ["Session", "opened"]
+
+
+class DivergenceJudge(Judge):
+    """Looks for divergence only: what flutters is past no critical load."""
+
+    def verdict(self, state: State, t: float, *, closely: bool) -> Verdict:
+        """Stability by pivots or the sign of the determinant, never by vibrations."""
+        return super().verdict(state, t, closely=False)
 
 
 @dataclass
@@ -42,6 +50,7 @@ class Session:
         problem: Owner of the state.
         newton: Its solver.
         phase: Its free rigid motions.
+        judge: Tells states beyond a critical point from others.
         readout: Its states as records.
         path: Equilibria found, the last one current.
     """
@@ -49,6 +58,7 @@ class Session:
     problem: Problem
     newton: Newton
     phase: PhaseCondition
+    judge: Judge
     readout: Readout
     path: Path = field(default_factory=Path)
 
@@ -64,10 +74,11 @@ class Session:
             SceneError: A result of something else.
             NotConverged: No equilibrium there.
         """
+        state = None if at is None else self._state(at)
         t = 0.0 if at is None else float(at.t[-1])
         self.problem.advance_to(t)
-        if at is not None:
-            self.readout.restore(self._state(at))
+        if state is not None:
+            self.readout.restore(state)
             self.problem.advance_to(t)
         before = self.readout.state()
         outcome = equilibrium(self.newton, self.phase)
@@ -81,18 +92,23 @@ class Session:
             raise self.failed(StepFailed(t=t, step=0.0, reason=outcome.reason))
 
     def go_to(self, t: float) -> None:
-        """Follow the path on to pseudo-time t.
+        """Follow the path on to pseudo-time t, with steps so short that it stays stable as far as it can.
 
         Raises:
             StepFailed: No equilibrium was found on the way.
         """
-        Walk(self.newton, self.phase, None, self.readout, self.path, None).run(until=t)
+        Walk(self.newton, self.phase, self.judge, self.readout, self.path, None).run(until=t)
 
-    def go_back(self, n: int) -> None:
-        """Forget all equilibria but the first n."""
+    def judge_start(self) -> None:
+        """Find out whether the current equilibrium is stable: only then do steps that follow shy away from others."""
+        self.path.stable = self.judge.verdict(self.path.states[-1], self.t, closely=False).stable
+
+    def go_back(self, n: int, *, stable: bool | None) -> None:
+        """Forget all equilibria but the first n, the last of which was stable or not as told."""
         for states in (self.path.t, self.path.states, self.path.energy):
             del states[n:]
         del self.path.log[max(n - 1, 0) :]
+        self.path.stable = stable
         self.restore()
 
     def restore(self) -> None:
@@ -113,6 +129,8 @@ class Session:
 
     def _state(self, at: Result) -> State:
         """The last state of a result in the working coordinates of this problem."""
+        if not isinstance(at, Result) or at.formulation.model != "continuum":
+            raise SceneError("at must be a result of `dolfinrod.solve`")
         scene, state = self.problem.scene, at.state
         if at.scene != scene:
             raise SceneError("at must be a result of the same scene")
@@ -144,7 +162,9 @@ def opened(
     with borrowed(comm, rods, degree, element_counts(elements, len(scene.rods))) as (discretization, _):
         problem = Problem(scene, discretization, Placement.of(scene, chosen))
         newton = Newton(problem)
+        judge = DivergenceJudge(problem)
         try:
-            yield Session(problem, newton, PhaseCondition(problem), Readout(problem))
+            yield Session(problem, newton, PhaseCondition(problem), judge, Readout(problem))
         finally:
+            judge.close()
             newton.close()

@@ -19,6 +19,8 @@ from slepc4py import SLEPc
 import numpy as np
 from scipy.linalg import qr
 
+from dolfinrod.continuum.direct import everywhere
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -96,7 +98,7 @@ class Spectrum:
 
     def __init__(self, A: PETSc.Mat, B: PETSc.Mat) -> None:
         self._comm = A.getComm().tompi4py()
-        self._matrices = _everywhere(A), _everywhere(B)
+        self._matrices = everywhere(A), everywhere(B)
         self._solver = direct_solver(self._matrices[1])
         self._eps = SLEPc.EPS().create(PETSc.COMM_SELF)
         self._eps.setOptionsPrefix("rod_")
@@ -192,14 +194,6 @@ class Spectrum:
     def _apply(self) -> None:
         """y = B⁻¹ A x."""
         self._eps.getST().apply(self._x, self._y)
-
-
-def _everywhere(A: PETSc.Mat) -> PETSc.Mat:
-    """The whole matrix on every rank."""
-    every = PETSc.IS().createStride(A.getSize()[0], step=1, comm=PETSc.COMM_SELF)
-    (whole,) = A.createSubMatrices(every, every)
-    every.destroy()
-    return whole
 
 
 def _grouped(θ: Values, vectors: Values, round_off: float) -> Eigenpairs:

@@ -9,6 +9,7 @@ from mpi4py import MPI
 import numpy as np
 import pytest
 
+import discrete
 import dolfinrod as dr
 from tests.scenes import FLAT, KIRCHHOFF
 
@@ -28,6 +29,9 @@ SOFT = dr.Section(EA=1200.0, GA=500.0, GJ=1 / 1.3, EI=1.0)
 TWIST = {0: (6.283185307179586, 8.986818915818128), 5: (4.413436031524354, 8.232810781020973)}
 TWIST |= {-20: (10.930618354162652, 11.800329535425245)}
 COMPRESS, THEN_TWIST = ((0.0, 0.0), (1.0, 1.0)), ((1.0, 0.0), (2.0, 1.0))
+BEND = COMPRESS
+# Reference cases G3 (Michell 1889; Zajac 1962): twist 2π √3 EI/GJ of a ring of any radius, by GJ/EI.
+RING = {1.0: 10.882796185405308, 0.75: 14.510394913873743}
 
 
 def column(section: dr.Section, ends: str, P: float = 50.0) -> dr.Scene:
@@ -51,6 +55,32 @@ def strip(EI_3: float, **elastic: float) -> dr.Scene:
     rigid = {} if elastic else {"rigid": {"shear", "extension"}}
     section = dr.Section(GJ=1.0, EI=(1.0, EI_3), **rigid, **elastic)
     return dr.Scene([FLAT.straight(section)], [dr.Clamp("start")], [dr.PointForce((0, -10.0, 0), "end")])
+
+
+def ring(twist: float, GJ: float = 1.0, t_end: float = 2.0, EA: float = 1e8) -> dr.Scene:
+    """A straight rod of length 2π bent to arcs of ever smaller radius, closed at t = 1, then twisted until t = 2.
+
+    Held at both ends it is straight only if it can be stretched; EA = 10⁸ moves the critical twist by 1e-8. From
+    t = 1 on a round ring may roll through itself: its middle stays in the plane.
+    """
+
+    def chord(t: float) -> float:
+        return float(2 * np.pi * (np.sinc(2 * min(t, 1.0)) - 1.0))
+
+    def height(t: float) -> float:
+        return float(2 * np.pi * np.sin(np.pi * min(t, 1.0)) * np.sinc(min(t, 1.0)))
+
+    section = dr.Section(EA=EA, GJ=GJ, EI=1.0, rigid={"shear"})
+    rod = dr.Rod.straight(length=2 * np.pi, section=section, start=(0, 0, 0), direction=(1, 0, 0))
+    supports = [
+        dr.Prescribed("start", displacement=(0, 0, 0), rotation=(twist, 0, 0), history=THEN_TWIST),
+        dr.Prescribed("end", rotation=(0, 0, 2 * np.pi), history=BEND),
+        dr.Prescribed("end", displacement=(1.0, None, None), history=chord),
+        dr.Prescribed("end", displacement=(None, 1.0, None), history=height),
+        dr.Prescribed("end", displacement=(None, None, 0.0)),
+        dr.Prescribed(np.pi, displacement=(None, None, 0.0)),
+    ]
+    return dr.Scene([rod], supports, motion=dr.Static(t_end=t_end))
 
 
 @pytest.mark.parametrize("ends", ENDS)
@@ -96,9 +126,8 @@ def test_within_its_plane():
 def test_from_a_loaded_state():
     scene = column(SOFT, "CF", P=2.0)
     result = dr.solve(scene, elements=4)
-    exact = dr.critical(column(SOFT, "CF"), elements=4, modes=1).factors[0] * 25
-    estimates = [dr.buckling(scene, at=at, elements=4, modes=1).factors[0] for at in (None, result)]
-    errors = np.abs(np.array(estimates) - exact)
+    estimates = [2 * dr.buckling(scene, at=at, elements=4, modes=1).factors[0] for at in (None, result)]
+    errors = np.abs(np.array(estimates) - FLEXIBLE["CF"])
     assert errors[1] < 0.1 * errors[0]
 
 
@@ -141,8 +170,26 @@ def test_state_of_another_scene():
         dr.buckling(column(KIRCHHOFF, "CF", P=1.0), at=result, elements=5)
 
 
-@pytest.mark.parametrize("clamped", [False, True], ids=["pinned", "clamped"])
-@pytest.mark.parametrize("P", [0, pytest.param(5, marks=pytest.mark.slow), pytest.param(-20, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("analysis", [dr.buckling, dr.modes])
+def test_at_is_a_result_of_this_model(analysis):
+    section = dr.Section(GJ=1.0, EI=1.0, rhoA=1.0, rhoI=(0, 0, 0), rigid={"shear", "extension"})
+    scene = column(section, "CF", P=1.0)
+    for at in (discrete.solve(scene, elements=4), scene, "out/"):
+        with pytest.raises(dr.SceneError, match=r"at must be a result of `dolfinrod\.solve`"):
+            analysis(scene, at=at, elements=4)
+
+
+@pytest.mark.parametrize("analysis", [dr.buckling, dr.critical, dr.modes])
+@pytest.mark.parametrize("n", [0, -1, 2.5, True, "3", 1001])
+def test_number_of_modes(analysis, n):
+    with pytest.raises(dr.SceneError, match="modes must be"):
+        analysis(column(SOFT, "CF"), modes=n)
+
+
+@pytest.mark.parametrize(
+    ("P", "clamped"),
+    [(0, True), *(pytest.param(P, c, marks=pytest.mark.slow) for P in TWIST for c in (False, True) if P or not c)],
+)
 def test_compressed_then_twisted(P, clamped):
     found = dr.critical(twisted(P, 20.0, clamped=clamped), elements=16, modes=1)
     assert 20 * (found.factors[0] - 1) == pytest.approx(TWIST[P][clamped], rel=1e-7)
@@ -178,6 +225,41 @@ def test_planar_state_is_judged_in_space():
     assert found.at.formulation.kinematics == "spatial"
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("GJ", [1.0, 0.75])
+def test_ring_leaves_its_plane(GJ):
+    """With the two shapes cos 2φ and sin 2φ."""
+    twist = 1.2 * RING[GJ]
+    found = dr.critical(ring(twist, GJ), elements=24, modes=2)
+    np.testing.assert_allclose((found.factors - 1.0) * twist, RING[GJ], rtol=5e-7)
+    np.testing.assert_array_equal(found.multiplicity, 2)
+    assert found.at.log[-1].stable
+
+
+@pytest.mark.slow
+def test_ring_from_a_twisted_state():
+    """Half way to it the critical twist is seen to 1e-6, of each of the two shapes."""
+    twist = 1.2 * RING[1.0]
+    scene = ring(twist, t_end=1.5, EA=1e6)
+    result = dr.solve(scene, elements=12, degree=4)
+    found = dr.buckling(scene, at=result, elements=12, degree=4, modes=2)
+    np.testing.assert_allclose((found.factors - 1.0) * twist, RING[1.0], rtol=1e-6)
+    assert len(found.factors) == 2
+
+
+@pytest.mark.slow
+def test_ring_rolls_through_itself():
+    """A round ring with nothing but its ends held turns about their tangent as soon as it is closed."""
+    scene = ring(10.0)
+    free = dr.critical(replace(scene, supports=scene.supports[:-1]), elements=12, modes=1)
+    assert free.factors[0] == pytest.approx(1.0, abs=1e-6)
+    assert free.multiplicity[0] == 1
+    # About the tangent at the ends, which is x: the farthest point moves most, out of the plane.
+    shape, s = free.rods[0].displacement[0], free.rods[0].s
+    np.testing.assert_allclose(np.abs(shape[:, 2]), 0.5 * (1.0 - np.cos(s)), atol=1e-4)
+    np.testing.assert_allclose(shape[:, :2], 0.0, atol=1e-4)
+
+
 def test_self_buckling():
     """Reference case J3 (Greenhill 1881): w L³/EI = 7.8373, a Bessel zero."""
     section = dr.Section(GJ=1.0, EI=1.0, rhoA=1.0, rigid={"shear", "extension"})
@@ -187,12 +269,33 @@ def test_self_buckling():
     np.testing.assert_array_equal(found.multiplicity, 2)
 
 
-@pytest.mark.parametrize(("degree", "elements"), [(1, (8, 16)), (2, (4, 8)), (3, (2, 4))])
+@pytest.mark.parametrize(
+    ("degree", "elements"), [pytest.param(1, (8, 16), marks=pytest.mark.slow), (2, (4, 8)), (3, (2, 4))]
+)
 def test_order(degree, elements):
     """Twice the degree, as of every energy."""
     scene = column(KIRCHHOFF, "CP")
     loads = [50 * dr.buckling(scene, elements=n, degree=degree, modes=1).factors[0] for n in elements]
     errors = np.abs(np.array(loads) - EULER["CP"])
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(2 * degree, abs=0.4)
+
+
+# Scene, critical pseudo-time, and the coarsest mesh on which the order of degree 3 shows.
+ON_THE_WAY = {
+    "strip": (strip(20.0), STRIPS["EI3 = 20"][1] / 10, 4),
+    "twist": (twisted(5.0, 20.0, clamped=True), 1 + TWIST[5][1] / 20, 8),
+    "flexible": (column(SOFT, "CP"), FLEXIBLE["CP"] / 50, 4),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("degree", [2, 3])
+@pytest.mark.parametrize("name", ON_THE_WAY)
+def test_order_on_the_way(name, degree):
+    """The same where rods bend, twist or shorten before they buckle."""
+    scene, factor, coarse = ON_THE_WAY[name]
+    n = coarse if degree == 3 else 8
+    errors = [abs(dr.critical(scene, elements=m, degree=degree, modes=1).factors[0] - factor) for m in (n, 2 * n)]
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2 * degree, abs=0.4)
 
 

@@ -15,9 +15,13 @@ from tests.scenes import FLAT, SKEW, cantilever
 # Reference cases K1: (β L) of Euler-Bernoulli beams (Blevins 1979, Table 8-1).
 CANTILEVER = np.array([1.8751040687119611, 4.694091132974175, 7.854757438237613])
 FREE = np.array([4.730040744862704, 7.853204624095838, 10.995607838001671])
+CLAMPED_PINNED = np.array([3.926602312047919, 7.068582745628732])
 # Reference cases K2: Timoshenko beam of square section, L = EI = ρA = 1, L/h = 10, ν = 0.3, shear factor 5/6.
 TIMOSHENKO_CANTILEVER = [3.4883549511812464, 20.90691543848912, 54.988379721983385]
 TIMOSHENKO_FREE = [21.608485400183906, 56.207823841066585]
+TIMOSHENKO_PINNED = [9.707477234868747, 37.09615884769685]
+# Zeros of the Bessel function J0.
+BESSEL = np.array([2.404825557695773, 5.520078110286311])
 
 THIN = dr.Section(GJ=1 / 1.3, EI=1.0, rhoA=1.0, rhoI=(0, 0, 0), rigid={"shear", "extension"})
 THICK = dr.Section(EA=1200.0, GA=384.6153846153846, GJ=1 / 1.3, EI=1.0, rhoA=1.0, rhoI=(1 / 600, 1 / 1200, 1 / 1200))
@@ -27,6 +31,11 @@ PINNED = (dr.Pin("start"), dr.Guide("end", free={"x", "rx", "ry", "rz"}))
 def pulled(T: float) -> dr.Scene:
     """A pinned beam under a steady axial force."""
     return dr.Scene([FLAT.straight(THIN)], PINNED, [dr.PointForce((T, 0, 0), "end", history=dr.Steady())])
+
+
+def pushed(P: float) -> dr.Scene:
+    """A pinned beam under an axial force that grows to P."""
+    return dr.Scene([FLAT.straight(THIN)], PINNED, [dr.PointForce((-P, 0, 0), "end")])
 
 
 def test_slender_cantilever():
@@ -48,6 +57,46 @@ def test_thick_cantilever_bends_twists_and_stretches():
     wave = np.sin(np.pi / 2 * found.rods[0].s)
     for shape in (found.rods[0].spin[4], found.rods[0].displacement[5]):
         np.testing.assert_allclose(np.abs(shape @ SKEW.Q[:, 0]), wave, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("end", "exact"),
+    [
+        (dr.Guide("end", free={"x", "rx", "ry", "rz"}), CLAMPED_PINNED),
+        pytest.param(dr.Guide("end", free={"x"}), FREE[:2], marks=pytest.mark.slow),
+    ],
+)
+def test_other_ends(end, exact):
+    """K1; clamped at both ends it sounds like a free one."""
+    found = dr.modes(dr.Scene([FLAT.straight(THIN)], [dr.Clamp("start"), end]), elements=16, modes=4)
+    np.testing.assert_allclose(found.omega, np.repeat(exact**2, 2), rtol=5e-7)
+
+
+def test_pinned_thick_rod():
+    """Free to slide at one end and to turn about its axis at both: waves π c/2 of extension and π c of torsion (K3)."""
+    found = dr.modes(dr.Scene([FLAT.straight(THICK)], PINNED), elements=16, modes=7)
+    waves = np.pi * np.array([0.5 * np.sqrt(1200.0), np.sqrt(600 / 1.3)])
+    np.testing.assert_allclose(found.omega, [0.0, *np.repeat(TIMOSHENKO_PINNED, 2), *waves], rtol=5e-7)
+    np.testing.assert_array_equal(found.multiplicity, [1, 2, 2, 2, 2, 1, 1])
+
+
+@pytest.mark.parametrize(("section", "rigid"), [(THICK, 3), (THIN, 2)], ids=["thick", "thin"])
+def test_rod_on_one_pin(section, rigid):
+    """Three turns about the pin, of which the one about its axis is no motion without rotary inertia."""
+    found = dr.modes(dr.Scene([SKEW.straight(section)], [dr.Pin("start")]), elements=8, modes=rigid + 2)
+    np.testing.assert_array_equal(found.omega[:rigid], 0.0)
+    np.testing.assert_array_equal(found.multiplicity, [rigid] * rigid + [2, 2])
+    if section is THIN:
+        np.testing.assert_allclose(found.omega[rigid:], CLAMPED_PINNED[0] ** 2, rtol=1e-6)
+
+
+def test_hanging_chain():
+    """K4: j₀ₙ/2 √(g/L) in the limit of no stiffness, to which √EI/L is the distance at a pin."""
+    section = dr.Section(GJ=1e-6, EI=1e-6, rhoA=1.0, rhoI=(0, 0, 0), rigid={"shear", "extension"})
+    rod = dr.Rod.straight(length=1.0, section=section, start=(0, 0, 0), direction=(0, 0, -1))
+    scene = dr.Scene([rod], [dr.Pin("start")], [dr.Gravity((0, 0, -1.0), history=dr.Steady())])
+    found = dr.modes(scene, elements=16, modes=4)
+    np.testing.assert_allclose(found.omega, np.repeat(BESSEL / 2, 2), rtol=2e-4)
 
 
 def test_free_rod_has_six_rigid_motions():
@@ -102,14 +151,37 @@ def test_unstable_direction_grows():
 
 def test_frequency_vanishes_at_the_critical_load():
     """ω² falls linearly with the load of a straight column, to zero at the load that `buckling` finds."""
-    scene = dr.Scene([FLAT.straight(THIN)], PINNED, [dr.PointForce((-9.0, 0, 0), "end")])
+    scene = pushed(9.0)
     result = dr.solve(scene, elements=8, kinematics=dr.Spatial())
     squares = [dr.modes(scene, at=at, elements=8, modes=1).omega[0].real ** 2 for at in (None, result)]
     factor = dr.buckling(scene, elements=8, modes=1).factors[0]
     assert squares[0] / (squares[0] - squares[1]) == pytest.approx(factor, rel=1e-7)
 
 
-@pytest.mark.parametrize(("degree", "elements"), [(1, (8, 16)), (2, (4, 8)), (3, (2, 4))])
+def test_at_the_critical_load():
+    """Two directions in which the column neither swings nor falls."""
+    critical = 10.0 * dr.buckling(pushed(10.0), elements=8, modes=1).factors[0]
+    result = dr.solve(pushed(critical), elements=8, kinematics=dr.Spatial())
+    found = dr.modes(pushed(critical), at=result, elements=8, modes=3)
+    np.testing.assert_array_equal(found.omega[:2], 0.0)
+    np.testing.assert_array_equal(found.multiplicity[:2], 2)
+    assert found.omega[2] == pytest.approx(np.sqrt(12.0) * np.pi**2, rel=1e-5)
+
+
+def test_a_moment_along_the_rod_does_not_change_its_frequencies_in_the_plane():
+    """Bent to a quarter circle by its tip moment it vibrates as one that was made so: both store ½ ∫ EI (Δκ)²."""
+    section = replace(THIN, rhoI=(1e-3, 5e-4, 5e-4))
+    scene = dr.Scene([FLAT.straight(section)], [dr.Clamp("start")], [dr.PointMoment((0, 0, np.pi / 2), "end")])
+    bent = dr.modes(scene, at=dr.solve(scene, elements=16), elements=16, modes=3, kinematics=dr.Planar())
+    arc = dr.Scene([FLAT.arc(section, radius=2 / np.pi, angle=np.pi / 2)], [dr.Clamp("start")])
+    made = dr.modes(arc, elements=16, modes=3, kinematics=dr.Planar())
+    np.testing.assert_allclose(bent.omega, made.omega, rtol=1e-7)
+    assert bent.stable
+
+
+@pytest.mark.parametrize(
+    ("degree", "elements"), [pytest.param(1, (8, 16), marks=pytest.mark.slow), (2, (4, 8)), (3, (2, 4))]
+)
 def test_order(degree, elements):
     found = [dr.modes(cantilever(FLAT.straight(THIN)), elements=n, degree=degree, modes=1) for n in elements]
     errors = [abs(modes.omega[0] - CANTILEVER[0] ** 2) for modes in found]
