@@ -46,6 +46,11 @@ class Watch:
         return float(_lengths(self._net).max())
 
     @property
+    def apart(self) -> float:
+        """Largest turn of the ends of an element against each other [rad]; a bound from above once seen to be small."""
+        return self._bound
+
+    @property
     def wandering(self) -> bool:
         """Whether some section has turned much farther than it got."""
         return bool((self._way - _lengths(self._net)).max() > MOST_WANDERING)
