@@ -134,7 +134,8 @@ class Equilibrium:
             if iteration == 1 and step.turn > trust:
                 reason = "the iteration leads off the extrapolated path"
                 break
-        return Outcome(step.state, reason == SETTLED, iteration, step.residual, reason, watch.turned, step.tangent)
+        turned, strayed = watch.turned, watch.strayed
+        return Outcome(step.state, reason == SETTLED, iteration, step.residual, reason, turned, step.tangent, strayed)
 
     def _iterate(self, state: State, level: LoadLevel, goal: Array, watch: Watch) -> _Step:
         """One Newton iteration."""

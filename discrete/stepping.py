@@ -126,8 +126,8 @@ class Walk:
 
     def _unwanted(self, outcome: Outcome, verdict: Verdict | None, t: float) -> bool:
         """Whether another branch may lead on: beyond a critical point, or where an unstable path was not kept to."""
-        if verdict is None or verdict.stable:
-            return False
+        if verdict is None or outcome.strayed or verdict.stable:
+            return verdict is not None and outcome.strayed
         if self._stable is False:
             return self._memory.extrapolates and outcome.turned > STRAYED
         return (

@@ -29,6 +29,9 @@ __all__ = ["Newton", "Outcome"]
 LARGEST_TURN = 2.0
 # Sections that turned this far in all beyond where they got [rad] are lost: what leads somewhere turns one way.
 LARGEST_DETOUR = 4.0 * LARGEST_TURN
+# Net turn of a section [rad] from which a rod that turned against the way it set out has gone to another branch: its
+# first increment is the rate of the path, along which a short enough step stays.
+STRAYED = 0.1
 # Increments relative to the unknowns (and to 1 rad, L, EI/L², EI/L) at which an iteration has converged.
 TOLERANCE = 1e-9
 # Where Newton converges quadratically, an increment this small is known to come next without computing it.
@@ -56,12 +59,14 @@ class Outcome:
         iterations: Newton iterations done.
         residual: Norm of the last residual in working units.
         reason: The SNES reason in words.
+        strayed: Whether the rods ended up turned against the way they set out.
     """
 
     converged: bool
     iterations: int
     residual: float
     reason: str
+    strayed: bool = False
 
 
 class Newton:
@@ -112,6 +117,7 @@ class Newton:
         self._size = self._next = np.inf
         self._travelled, self._lost = 0.0, False
         self._net = np.zeros((len(self._q), self.problem.kinematics.n_spin))
+        self._first: NDArray[np.float64] | None = None
         reason = self._run()
         iterations = self.snes.getIterationNumber()
         self.factorizations += iterations
@@ -121,7 +127,15 @@ class Newton:
             return Outcome(False, iterations, np.nan, REASONS[SINGULAR])
         # The last residual was that of the solution, and left the problem there with multipliers in balance.
         words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
-        return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words)
+        return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words, self._strayed())
+
+    def _strayed(self) -> bool:
+        """Whether the net turns of the sections point against their first increment."""
+        if self._first is None:
+            return False
+        (turned,) = self._largest(np.linalg.norm(self._net, axis=1))
+        along = self.problem.discretization.comm.allreduce(float(np.vdot(self._first, self._net)))
+        return bool(turned > STRAYED and along < 0.0)
 
     def _run(self) -> int:
         """The SNES reason for which it stopped."""
@@ -172,7 +186,11 @@ class Newton:
         if turn > LARGEST_TURN:
             increment *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
-            self._net += np.einsum("nij,nj->ni", kin.spin(q), increment)
+        spin = np.einsum("nij,nj->ni", kin.spin(q), increment)
+        self._net += spin
+        if self._first is None:
+            self._first = spin
+        if turn > LARGEST_TURN:
             self._travelled += LARGEST_TURN
             (net,) = self._largest(np.linalg.norm(self._net, axis=1))
             self._lost = bool(self._travelled - net > LARGEST_DETOUR)

@@ -166,8 +166,8 @@ class Walk:
         outcome, state, verdict = self._attempt(t_next, tried, closely=t_next == target)
         path.iterations += outcome.iterations
         if state is not None and verdict is not None:
-            # The way to a stable state may only be too steep for so long a step.
-            lost = verdict.avoidable and path.stable is not False
+            # The way to a stable state may only be too steep for so long a step, or lead to where the path does not.
+            lost = outcome.strayed or (verdict.avoidable and path.stable is not False)
             if not lost or tried <= interval / 2**MOST_DETOURS:
                 self._accept(t_next, outcome, state, verdict)
                 self._stride.succeed(tried, outcome.iterations)
