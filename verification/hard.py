@@ -119,13 +119,8 @@ def hard(case: HardCase, family: str) -> HardRow:
         reason = str(refused)
     ms = 1e3 * (time.perf_counter() - started)
     if reached and result is not None:
-        compiling = 1e3 * result.statistics.seconds_compile
-        ms -= compiling
-        try:
-            error = case.check.error(result, case)
-        except NotConverged as failed:
-            # What cannot be checked counts as wrong.
-            reason = f"the check has no equilibrium itself: {failed.reason}"
+        ms -= 1e3 * result.statistics.seconds_compile
+        error, reason = _checked(case, result)
     return HardRow(
         case=case.name,
         group=case.group,
@@ -142,6 +137,14 @@ def hard(case: HardCase, family: str) -> HardRow:
         check=case.check.words,
         ms=ms,
     )
+
+
+def _checked(case: HardCase, result: Result) -> tuple[float, str]:
+    """Error of what was found; what cannot be checked counts as wrong, with the reason."""
+    try:
+        return case.check.error(result, case), ""
+    except NotConverged as failed:
+        return np.nan, f"the check has no equilibrium itself: {failed.reason}"
 
 
 def _outcome(case: HardCase, result: Result | None, error: float) -> str:

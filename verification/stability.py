@@ -15,7 +15,7 @@ from verification.eigenmodels import EigenContinuum, EigenDiscrete
 from verification.order import Order, order
 
 if TYPE_CHECKING:
-    from verification.eigencase import Eigencase, EigenModel
+    from verification.eigencase import Eigencase, EigenModel, Found
 
 __all__ = ["LIMIT", "MODELS", "Bracket", "EigenStudy", "bracket", "eigenstudy", "pairs"]
 
@@ -103,20 +103,15 @@ def eigenstudy(case: Eigencase, model: EigenModel, meshes: tuple[int, ...] | Non
         The record, also of what was not found.
     """
     cells = meshes or tuple(round(case.finer * n) for n in model.meshes)
-    found, errors, multiplicity, failure, ms = [], [], 0, None, np.nan
+    found, multiplicity, failure, ms = [], 0, None, np.nan
     for n in cells:
         started = time.perf_counter()
-        try:
-            one = case.analysis.find(model, case, n)
-        except (NotConverged, SceneError) as refused:
-            found.append(np.nan)
-            failure = f"{n} elements: {refused}"
-        else:
-            found.append(one.value)
-            multiplicity = one.multiplicity
-            failure = failure if np.isfinite(one.value) else f"{n} elements: no critical point found"
+        one, reason = _found(case, model, n)
         ms = 1e3 * (time.perf_counter() - started)
-        errors.append(abs(found[-1] / case.reference.value - 1.0))
+        found.append(np.nan if one is None else one.value)
+        multiplicity = multiplicity if one is None else one.multiplicity
+        failure = reason or failure
+    errors = [abs(value / case.reference.value - 1.0) for value in found]
     return EigenStudy(
         case=case.name,
         title=case.title,
@@ -136,6 +131,15 @@ def eigenstudy(case: Eigencase, model: EigenModel, meshes: tuple[int, ...] | Non
         failure=failure,
         note=case.note,
     )
+
+
+def _found(case: Eigencase, model: EigenModel, n: int) -> tuple[Found | None, str | None]:
+    """What one mesh gives, and why it gives nothing."""
+    try:
+        one = case.analysis.find(model, case, n)
+    except (NotConverged, SceneError) as refused:
+        return None, f"{n} elements: {refused}"
+    return one, None if np.isfinite(one.value) else f"{n} elements: no critical point found"
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -76,33 +78,35 @@ def ring(GJ: float) -> Eigencase:
         The case.
     """
 
-    def scene(twist: float) -> Scene:
-        # Stretch is no part of the critical twist; without it, the straight rod between clamps is indeterminate.
-        rod = Rod.straight(length=AROUND, section=Section(EA=1e6, GJ=GJ, EI=1.0, rigid={"shear"}))
-        return Scene(
-            rods=[rod],
-            supports=[
-                Prescribed(at="start", displacement=(0.0, 0.0, 0.0), rotation=(twist, 0.0, 0.0), history=THEN),
-                Prescribed(at="end", rotation=(0.0, 0.0, AROUND), history=FIRST),
-                Prescribed(at="end", displacement=(AROUND, None, None), history=closing_along),
-                Prescribed(at="end", displacement=(None, AROUND, None), history=closing_across),
-                Prescribed(at="end", displacement=(None, None, 0.0)),
-                Prescribed(at=0.5 * AROUND, displacement=(None, None, 0.0)),
-            ],
-            motion=Static(t_end=2.0),
-        )
-
     return Eigencase(
         name=f"ring-{GJ:g}",
         title=f"Michell's ring, GJ = {GJ:g} EI",
         family="twist",
         quantity="total twist, rad",
-        scene=scene,
+        scene=partial(closed, GJ),
         analysis=Path(since=1.0),
         reference=scalar(f"G3-ring-GJ{GJ}", "Tw_cr_total_rad"),
         multiplicity=2,
         models=("continuum", "discrete"),
         finer=1.5,
+    )
+
+
+def closed(GJ: float, twist: float) -> Scene:
+    """The scene of `ring` for a given twist of its ends [rad]."""
+    # Stretch is no part of the critical twist; without it, the straight rod between clamps is indeterminate.
+    rod = Rod.straight(length=AROUND, section=Section(EA=1e6, GJ=GJ, EI=1.0, rigid={"shear"}))
+    return Scene(
+        rods=[rod],
+        supports=[
+            Prescribed(at="start", displacement=(0.0, 0.0, 0.0), rotation=(twist, 0.0, 0.0), history=THEN),
+            Prescribed(at="end", rotation=(0.0, 0.0, AROUND), history=FIRST),
+            Prescribed(at="end", displacement=(AROUND, None, None), history=closing_along),
+            Prescribed(at="end", displacement=(None, AROUND, None), history=closing_across),
+            Prescribed(at="end", displacement=(None, None, 0.0)),
+            Prescribed(at=0.5 * AROUND, displacement=(None, None, 0.0)),
+        ],
+        motion=Static(t_end=2.0),
     )
 
 
