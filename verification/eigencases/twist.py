@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -77,7 +76,6 @@ def ring(GJ: float) -> Eigencase:
     Returns:
         The case.
     """
-
     return Eigencase(
         name=f"ring-{GJ:g}",
         title=f"Michell's ring, GJ = {GJ:g} EI",
