@@ -22,8 +22,9 @@ ALIASED = "sections at the ends of an element turned by half a turn against each
 # What a section may turn in excess of its net turn before the iteration is given up [rad]. Those that settle from a
 # whole follower load of 20 EI/L² spend 5 on going back and forth, those that never settle 3/4 an iteration.
 MOST_WANDERING = 8.0
-# Net turn of a section [rad] from which a rod that turned against its first increment, the rate of its path, has strayed.
-STRAYED = 0.1
+# The first increment is the rate of the path: a rod that turned the other way in the end, by more than this [rad], has
+# gone to another branch.
+STRAYED = 1e-2
 # Turn of the ends of an element against each other at which it is refused [rad]; half a turn and less are one.
 MOST_TURNED = 0.95 * np.pi
 
@@ -50,7 +51,7 @@ class Watch:
 
     @property
     def strayed(self) -> bool:
-        """Whether the sections have turned, in all, against the way they set out, as to another branch."""
+        """Whether the sections have turned, in all, against the way they set out, as to a mirrored branch."""
         return self._set_out is not None and self.turned > STRAYED and float(np.vdot(self._net, self._set_out)) < 0.0
 
     @property

@@ -184,10 +184,12 @@ class Walk:
         """Equilibrium at t; the state and what it is worth, if one was found that the elements can show."""
         path, problem = self.path, self.newton.problem
         smooth = len(path.log) > 1 and path.log[-1].iterations <= SMOOTH and path.t[-1] not in self._corners
+        last = None
         if smooth and step <= (path.t[-1] - path.t[-2]) * (1 + 1e-9):
+            last = problem.x.copy()
             self._readout.restore(self._extrapolated(step / (path.t[-1] - path.t[-2])))
         problem.advance_to(t)
-        outcome = equilibrium(self.newton, self._phase)
+        outcome = equilibrium(self.newton, self._phase, last)
         if not outcome.converged:
             return outcome, None, None
         turn = problem.largest_turn_between_nodes()
