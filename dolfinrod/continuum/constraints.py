@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.continuum.placement import ALIGNED, AXES
+from dolfinrod.continuum.placement import ALIGNED, AXES, exact_zeros
 from dolfinrod.scene import Prescribed
 from dolfinrod.scene.history import factor
 
@@ -94,7 +94,7 @@ class Constraints:
             if isinstance(s, Prescribed) and s.displacement is not None:
                 given = np.array([0.0 if u is None else u for u in s.displacement])
                 displacement += factor(s.history, t, self._t_end) * given
-        u = np.linalg.lstsq(rows, displacement[[AXES[a] for a in held]], rcond=None)[0]
+        u = exact_zeros(np.linalg.lstsq(rows, displacement[[AXES[a] for a in held]], rcond=None)[0])
         components = np.flatnonzero(np.abs(rows).max(axis=0) > ALIGNED)
         x = self._place.points(x_0) + u / self._place.length
         return dofs[components], x[components]
@@ -107,7 +107,7 @@ class Constraints:
         if not held or np.abs(spin[held]).max() <= ALIGNED:
             return []
         turns = [
-            factor(s.history, t, self._t_end) * np.asarray(s.rotation) @ spin
+            factor(s.history, t, self._t_end) * exact_zeros(np.asarray(s.rotation) @ spin)
             for s in supports
             if isinstance(s, Prescribed) and s.rotation is not None
         ]

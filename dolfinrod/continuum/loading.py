@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.continuum.placement import exact_zeros
 from dolfinrod.continuum.terms.point import DeadForces, DeadMoments, FollowerForces, FollowerMoments
 from dolfinrod.scene import FollowerForce, FollowerMoment, Gravity, LineForce, PointForce, PointMoment
 from dolfinrod.scene.history import factor
@@ -58,7 +59,7 @@ def line_loads(
         else:
             continue
         histories.append(load.history)
-        fields.append(f @ placement.axes / per_length)
+        fields.append(exact_zeros(f @ placement.axes) / per_length)
     return histories, np.array(fields).reshape(len(fields), *s.shape, placement.axes.shape[1])
 
 
@@ -91,8 +92,8 @@ def _vector(load: PointLoad, R_0: NDArray[np.float64], placement: Placement) -> 
     """Force or moment in working directions and units; that of a follower in stress-free directions."""
     turn = np.eye(3) if isinstance(load, PointForce | PointMoment) else R_0
     if isinstance(load, PointForce | FollowerForce):
-        return turn @ np.asarray(load.force) @ placement.axes / placement.force
-    return turn @ np.asarray(load.moment) @ placement.spin_axes / placement.moment
+        return exact_zeros(turn @ np.asarray(load.force) @ placement.axes) / placement.force
+    return exact_zeros(turn @ np.asarray(load.moment) @ placement.spin_axes) / placement.moment
 
 
 def _builder(

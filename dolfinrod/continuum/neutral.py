@@ -104,8 +104,14 @@ class PhaseCondition:
         pushed = [i for i, force in enumerate(forces) if np.abs(force).max(initial=0.0) > BALANCED * self._largest()]
         for rod in pushed:
             self._motions[rod] = null_space(forces[rod][None]) @ self._motions[rod]
-        self._choose()
+        if pushed:
+            self._choose()
         return bool(pushed)
+
+    def balanced(self) -> bool:
+        """Whether what is held needs no force, however far the rods have turned since it was chosen."""
+        needed = float(np.abs(self._problem.held_force).max(initial=0.0))
+        return bool(self._problem.discretization.comm.allreduce(needed, op=MPI.MAX) <= BALANCED * self._largest())
 
     def _free(self) -> list[NDArray[np.float64]]:
         """Rigid motions of each rod that leave its supported unknowns where they are, shape (n, dim + n_spin)."""
@@ -175,5 +181,7 @@ def equilibrium(newton: Newton, phase: PhaseCondition, last: NDArray[np.float64]
         again = newton.solve()
         reason = again.reason if again.converged else UNBALANCED
         found = replace(again, iterations=found.iterations + again.iterations, reason=reason)
+    if found.converged and not phase.balanced():
+        found = replace(found, converged=False, reason=UNBALANCED)
     phase.release()
     return found

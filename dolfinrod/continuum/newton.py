@@ -79,6 +79,7 @@ class Newton:
         self._q = d.owned_nodes("q")
         self._linear = [d.owned_nodes(f).ravel() for f in ("r", "N", "m")]
         self._m = self._linear[-1]
+        self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
         self._size = self._next = np.inf
         self._open()
 
@@ -147,10 +148,12 @@ class Newton:
         self._X.destroy()
 
     def _take(self, X: PETSc.Vec) -> None:
-        """Make X the problem's state."""
+        """Make X the problem's state, but for the multipliers: these follow from it, and X may have lost them."""
+        balanced = self.problem.x[self._multipliers]
         X.ghostUpdate(PETSc.InsertMode.INSERT, PETSc.ScatterMode.FORWARD)
         with X.localForm() as x:
             self.problem.x[:] = x.array_r
+        self.problem.x[self._multipliers] = balanced
 
     def _residual(self, snes: PETSc.SNES, X: PETSc.Vec, F: PETSc.Vec) -> None:
         self._take(X)

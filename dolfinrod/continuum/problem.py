@@ -13,6 +13,7 @@ from dolfinrod.continuum.constraints import Constraints
 from dolfinrod.continuum.discretization import Discretization, Values
 from dolfinrod.continuum.loading import line_loads, point_terms
 from dolfinrod.continuum.nodes import element_ends
+from dolfinrod.continuum.placement import exact_zeros
 from dolfinrod.scene.history import factor
 
 if TYPE_CHECKING:
@@ -102,14 +103,14 @@ class Problem:
         c_n = np.array([section.compliance_n for section in sections]) * place.force
         c_m = np.array([section.compliance_m for section in sections]) * place.stiffness
         R_0 = self._on_rods(at_points, "frames")
-        directions, self.spins = place.axes.T @ R_0, place.spin_axes.T @ R_0
+        directions, self.spins = exact_zeros(place.axes.T @ R_0), exact_zeros(place.spin_axes.T @ R_0)
         r_0 = place.points(self._on_rods(self.s, "centerline"))
         self._line_histories, self._line_fields = line_loads(scene, place, self.rod, at_points)
         self.values = Values(
             ends=self.ends,
             r_0=r_0,
-            C_n=np.einsum("cqij,cj,cqkj->cqik", directions, c_n[self.rod], directions),
-            C_m=np.einsum("cqij,cj,cqkj->cqik", self.spins, c_m[self.rod], self.spins),
+            C_n=exact_zeros(np.einsum("cqij,cj,cqkj->cqik", directions, c_n[self.rod], directions), axis=(2, 3)),
+            C_m=exact_zeros(np.einsum("cqij,cj,cqkj->cqik", self.spins, c_m[self.rod], self.spins), axis=(2, 3)),
         )
         d.set(self.values)
         self.R_0 = self._on_rods(self.s, "frames")

@@ -135,7 +135,7 @@ class Session:
         if at.scene != scene:
             raise SceneError("at must be a result of the same scene")
         if at.formulation.kinematics == "planar" and self.problem.kinematics.name == "spatial":
-            state = lifted(state, Placement.of(scene, choose(scene, Planar())))
+            state = lifted(state, Placement.of(scene, choose(scene, Planar())), self.problem.placement)
         wanted = self.readout.state()
         if any(state[f].shape != wanted[f].shape for f in self.problem.kinematics.fields):
             raise SceneError("at must be a result on the same elements, degree and kinematics")

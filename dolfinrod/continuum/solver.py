@@ -9,6 +9,7 @@ from mpi4py import MPI
 
 import numpy as np
 
+from dolfinrod.continuum.lift import restated
 from dolfinrod.continuum.neutral import PhaseCondition
 from dolfinrod.continuum.newton import Newton
 from dolfinrod.continuum.placement import Placement
@@ -81,7 +82,7 @@ def _path(
     with borrowed(comm, rods, degree, counts) as (discretization, is_new):
         problem = Problem(scene, discretization, Placement.of(scene, kinematics))
         newton, phase, readout = Newton(problem), PhaseCondition(problem), Readout(problem)
-        path = _begin(scene, readout, start)
+        path = _begin(scene, kinematics, readout, start)
         compiling = discretization.seconds_compile if is_new else 0.0
         with judging(problem, in_space=in_space) as judge:
             ready = time.perf_counter()
@@ -143,14 +144,16 @@ def choose(scene: Scene, kinematics: Planar | Spatial | None) -> Planar | Spatia
     return plane
 
 
-def _begin(scene: Scene, readout: Readout, start: Result | None) -> Path:
+def _begin(scene: Scene, kinematics: Planar | Spatial, readout: Readout, start: Result | None) -> Path:
     """The first state: stress free, or where an earlier result ended."""
     t = 0.0
     if start is not None:
         state = readout.state()
         if {f: a.shape for f, a in state.items()} != {f: a.shape for f, a in start.state.items()}:
             raise SceneError("start must be a result on the same elements, degree and kinematics")
-        readout.restore(start.state)
+        place = readout.problem.placement
+        before = Placement.of(start.scene, choose(start.scene, kinematics))
+        readout.restore(start.state if place.coincides(before) else restated(start.state, before, place))
         if start.scene == scene and start.t[-1] < scene.motion.t_end:
             t = float(start.t[-1])
     stable = True if start is None else start.log[-1].stable if start.log else None

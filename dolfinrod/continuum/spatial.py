@@ -10,6 +10,7 @@ import ufl
 from dolfinrod.continuum import quaternion
 from dolfinrod.continuum.backend import discontinuous, lagrange
 from dolfinrod.continuum.kinematics import Configuration
+from dolfinrod.continuum.placement import exact_zeros
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -122,5 +123,6 @@ class SpatialRods:
 
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames R(p) R₀ in space, shapes (t, s, 4), (3, 3), (s, 3, 3) → (t, s, 3, 3)."""
-        columns = [quaternion.rotate(q, frames[None, :, :, j] + 0.0 * q[..., :1]) for j in range(3)]
-        return np.stack(columns, axis=-1)
+        at_rest = exact_zeros(spin_axes.T @ frames)
+        columns = [quaternion.rotate(q, at_rest[None, :, :, j] + 0.0 * q[..., :1]) for j in range(3)]
+        return spin_axes @ np.stack(columns, axis=-1)

@@ -172,7 +172,7 @@ class LiftedJudge(Judge):
     def verdict(self, state: State, t: float, *, closely: bool) -> Verdict:
         """Stability in space of a state of the planar problem."""
         problem = self._problem
-        self._readout.restore(lifted(state, self._plane))
+        self._readout.restore(lifted(state, self._plane, problem.placement))
         problem.advance_to(t)
         b = problem.discretization.assembled_residual()
         problem.balance_multipliers(b)

@@ -113,9 +113,9 @@ def test_load_steps_follow_the_histories(force, kinematics):
     table = ((0.0, 0.0), (0.02, 0.2), (0.3, 1.0), (1.0, 0.5))
     load = dr.PointForce(SKEW.turned((0, force, 0)), "end", history=table)
     result = dr.solve(cantilever(SKEW.straight(GENERAL), load), kinematics=kinematics, **MESH)
-    if all(step.stable for step in result.log):
+    if all(step.stable and step.cuts == 0 for step in result.log):
         np.testing.assert_array_equal(result.t, [0.0, 0.02, 0.3, 1.0])
-    # Where the rod loses its stability sideways, the stepping looks for another way before it goes on.
+    # Where the rod loses its stability or turns back, the stepping looks for another way before it goes on.
     assert {t for t, _ in table} <= set(result.t)
     for t, factor in table[1:]:
         alone = dr.solve(tip_loaded(GENERAL, factor * force), kinematics=kinematics, **MESH)
