@@ -22,6 +22,20 @@ def test_a_solve_may_start_where_another_ended(kinematics):
     np.testing.assert_array_equal(near.rods[0].r[0], there.rods[0].r[-1])
 
 
+def test_a_start_is_read_in_its_own_directions_and_units():
+    """The flat scene is solved in the directions of its plane, the pushed one in those of space, with other units."""
+    options = {"kinematics": dr.Spatial(), **MESH}
+    there = dr.solve(tip_loaded(GENERAL, 10.0), **options)
+    twice = dr.Section(**{name: 2.0 * np.asarray(getattr(GENERAL, name)) for name in ("EA", "GA", "GJ", "EI")})
+    flat = tip_loaded(GENERAL, 10.0).loads[0]
+    pushed = dr.PointForce(2.02 * np.asarray(flat.force) + 0.02 * np.asarray(SKEW.turned((0, 0, 1.0))), "end")
+    scene = cantilever(SKEW.straight(twice), pushed)
+    near, far = dr.solve(scene, start=there, **options), dr.solve(scene, **options)
+    assert near.statistics.newton_iterations < far.statistics.newton_iterations
+    np.testing.assert_allclose(near.rods[0].r[0], there.rods[0].r[-1], rtol=0, atol=1e-14)
+    assert np.abs(near.rods[0].r[-1] - far.rods[0].r[-1]).max() <= 1e-10
+
+
 def test_a_start_on_other_elements_is_refused():
     there = dr.solve(tip_loaded(GENERAL, 1.0), elements=4, degree=2)
     for options in (

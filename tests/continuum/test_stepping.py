@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
+import discrete
 import dolfinrod as dr
-from tests.scenes import FLAT, KIRCHHOFF, both_kinematics, cantilever
+from tests.scenes import FLAT, KIRCHHOFF, SKEW, both_kinematics, cantilever
 
 # Ibrahimbegović's helix, case E-SR-F50 of the references: tip at the full load.
 HELIX_TIP = np.array([0.00480324964971212, 7.24968465382423e-05, -0.07644174175446661])
@@ -44,11 +47,29 @@ def test_a_lost_attempt_is_given_up_early():
 
 
 @both_kinematics
-def test_ten_turns_are_rolled_up_in_few_steps(kinematics):
-    result = dr.solve(rolled(10.0), elements=80, degree=2, kinematics=kinematics)
+@pytest.mark.parametrize("pose", [FLAT, SKEW], ids=["flat", "skew"])
+def test_ten_turns_are_rolled_up_in_few_steps(pose, kinematics):
+    moment = dr.PointMoment(pose.turned((0.0, 0.0, 20.0 * np.pi)), at="end")
+    rod = pose.straight(KIRCHHOFF)
+    result = dr.solve(cantilever(rod, moment), elements=80, degree=2, kinematics=kinematics)
     assert result.statistics.load_steps <= 3
     assert result.statistics.newton_iterations <= 60
-    np.testing.assert_allclose(result.tip, 0.0, atol=2e-6)
+    np.testing.assert_allclose(result.tip, rod.centerline(0.0), atol=2e-6)
+    out_of_plane = (result.rods[0].r[-1] - rod.centerline(0.0)) @ pose.turned((0.0, 0.0, 1.0))
+    assert np.abs(out_of_plane).max() <= 1e-14
+
+
+@pytest.mark.parametrize("solve", [dr.solve, partial(discrete.solve, elements=80)], ids=["continuum", "discrete"])
+@pytest.mark.parametrize("steps", [None, 3, 50])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_strip_goes_the_way_it_is_pushed(side, steps, solve):
+    """At 1.3 times its lateral buckling load, from where its mirror image is as good an equilibrium."""
+    section = dr.Section(GJ=1.0, EI=(1.0, 20.0), rigid={"shear", "extension"})
+    push = dr.PointForce((0.0, -5.557, 0.005557 * side), at="end")
+    scene = cantilever(dr.Rod.straight(1.0, section), push, motion=dr.Static(steps=steps))
+    result = solve(scene)
+    assert result.log[-1].stable
+    assert side * result.tip[2] == pytest.approx(0.373, abs=2e-3)
 
 
 @both_kinematics
