@@ -9,10 +9,9 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from dolfinrod.continuum.linearization import continued, settle, tangent_and_rate, varies
+from dolfinrod.continuum.ahead import looking_on
+from dolfinrod.continuum.linearization import settle, varies
 from dolfinrod.continuum.mass import inertia, mass_matrix
-from dolfinrod.continuum.neutral import PhaseCondition
-from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.session import opened
 from dolfinrod.continuum.shapes import shapes
 from dolfinrod.continuum.spectrum import Eigenpairs, Spectrum
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from dolfinrod.continuum.problem import Problem
     from dolfinrod.continuum.session import Session
     from dolfinrod.result import Result
     from dolfinrod.scene import Planar, Scene, Spatial
@@ -65,24 +65,11 @@ def next_critical(session: Session, n: int) -> tuple[Buckling, float]:
     """
     if not varies(session.problem.scene, session.t):
         return no_critical(session), -np.inf
-    place, d = session.problem.placement, session.problem.discretization
-    problem = Problem(continued(session.problem.scene, session.t), d, place)
-    session.readout.restore(session.path.states[-1])
-    settle(problem)
-    phase = PhaseCondition(problem)
-    if phase.needed:
-        problem.assemble_tangent(d.matrix)
-        phase.hold_null(d.matrix)
-    K, dK = tangent_and_rate(problem)
-    spectrum = Spectrum(dK, K)
-    ahead, behind = spectrum.most_negative_first(n), spectrum.most_positive_first(1)
-    spectrum.close()
-    for owned in (K, dK):
-        owned.destroy()
+    with looking_on(session.readout, session.path.states[-1], session.t) as (problem, spectrum):
+        ahead, behind = spectrum.most_negative_first(n), spectrum.most_positive_first(1)
+        real = np.flatnonzero(ahead.values.imag == 0.0)[:n]
+        rods = shapes(problem, session.readout, ahead.vectors[:, real].real)
     t = session.t - 1.0 / ahead.values
-    real = np.flatnonzero(ahead.values.imag == 0.0)[:n]
-    rods = shapes(problem, session.readout, ahead.vectors[:, real].real)
-    session.restore()
     passed = session.t - 1.0 / behind.values[behind.values.imag == 0.0].real
     found = Buckling(t[real].real, ahead.multiplicity[real], rods, session.result(), t[t.imag != 0.0])
     return found, max(passed, default=-np.inf)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from dolfinrod.continuum.newton import Newton, Outcome
     from dolfinrod.continuum.problem import Problem
 
-__all__ = ["PhaseCondition", "equilibrium"]
+__all__ = ["UNBALANCED", "PhaseCondition", "equilibrium"]
 
 # Force along a motion, over the largest resultant, up to which the loads are balanced in it.
 BALANCED = 1e-9

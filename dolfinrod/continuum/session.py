@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from mpi4py import MPI
 
+from dolfinrod.continuum.failure import findings
 from dolfinrod.continuum.lift import lifted
 from dolfinrod.continuum.neutral import PhaseCondition, equilibrium
 from dolfinrod.continuum.newton import Newton
@@ -23,7 +24,7 @@ from dolfinrod.continuum.stability import Judge, Verdict
 from dolfinrod.continuum.stepping import Path, StepFailed, Walk
 from dolfinrod.result import NotConverged, Result, Statistics
 from dolfinrod.scene import Planar, SceneError, Spatial
-from dolfinrod.scene.mechanism import advice
+from dolfinrod.scene.advice import advice
 from dolfinrod.scene.options import element_counts
 
 if TYPE_CHECKING:
@@ -124,7 +125,8 @@ class Session:
 
     def failed(self, failure: StepFailed) -> NotConverged:
         """The public exception for a step that could not be taken."""
-        result, words = self.result(converged=False), advice(self.problem.scene)
+        words = advice(self.problem.scene, findings(self.readout, self.path, failure))
+        result = self.result(converged=False)
         return NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=words)
 
     def _state(self, at: Result) -> State:

@@ -9,6 +9,7 @@ from mpi4py import MPI
 
 import numpy as np
 
+from dolfinrod.continuum.failure import findings
 from dolfinrod.continuum.lift import restated
 from dolfinrod.continuum.neutral import PhaseCondition
 from dolfinrod.continuum.newton import Newton
@@ -22,9 +23,9 @@ from dolfinrod.continuum.stability import judging
 from dolfinrod.continuum.stepping import Path, StepFailed, Walk
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import Planar, SceneError, Spatial
+from dolfinrod.scene.advice import advice
 from dolfinrod.scene.door import admit
 from dolfinrod.scene.kinematics import detect, obstacle
-from dolfinrod.scene.mechanism import advice
 from dolfinrod.scene.options import element_counts
 
 if TYPE_CHECKING:
@@ -60,8 +61,7 @@ def solve(
     in_space = kinematics is None
     result, failure = _path(scene, chosen, comm, degree, counts, progress, start, in_space=in_space)
     if failure is not None:
-        words = advice(scene)
-        raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=words)
+        raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=failure.advice)
     return result
 
 
@@ -87,6 +87,9 @@ def _path(
         with judging(problem, in_space=in_space) as judge:
             ready = time.perf_counter()
             failure = _walk(Walk(newton, phase, judge, readout, path, progress))
+            seconds_solve = time.perf_counter() - ready - path.seconds_stability
+        if failure is not None and not failure.interrupted:
+            failure.advice = advice(scene, findings(readout, path, failure))
         statistics = Statistics(
             dofs=discretization.n_dofs,
             load_steps=len(path.log),
@@ -94,7 +97,7 @@ def _path(
             factorizations=newton.factorizations,
             seconds_compile=compiling,
             seconds_setup=ready - started - compiling,
-            seconds_solve=time.perf_counter() - ready - path.seconds_stability,
+            seconds_solve=seconds_solve,
             seconds_stability=path.seconds_stability,
         )
         notes = phase.notes if in_space or rods.dim == 3 else (*phase.notes, "stability judged in the plane only")
@@ -108,7 +111,7 @@ def _walk(walk: Walk) -> StepFailed | None:
     except StepFailed as failure:
         return failure
     except KeyboardInterrupt:
-        return StepFailed(t=walk.path.t[-1], step=0.0, reason="interrupted by the user")
+        return StepFailed(t=walk.path.t[-1], step=0.0, reason="interrupted by the user", interrupted=True)
     finally:
         walk.newton.close()
     return None

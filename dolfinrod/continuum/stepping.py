@@ -44,9 +44,11 @@ ALIASED, BLURRED = np.pi, np.pi / 2
 class StepFailed(RuntimeError):  # noqa: N818
     """No equilibrium at the smallest step tried."""
 
-    def __init__(self, *, t: float, step: float, reason: str) -> None:
+    advice = "Look at `.result` (what converged)"
+
+    def __init__(self, *, t: float, step: float, reason: str, coarse: bool = False, interrupted: bool = False) -> None:
         super().__init__(reason)
-        self.t, self.step, self.reason = t, step, reason
+        self.t, self.step, self.reason, self.coarse, self.interrupted = t, step, reason, coarse, interrupted
 
 
 @dataclass
@@ -178,7 +180,9 @@ class Walk:
         self._stride.fail(tried)
         if self._stride.length <= interval / 2 ** (MOST_CUTS + 1):
             turn = problem.largest_turn_between_nodes()
-            raise StepFailed(t=t, step=tried, reason=COARSE.format(turn) if turn > BLURRED else outcome.reason)
+            coarse = turn > BLURRED
+            reason = COARSE.format(turn) if coarse else outcome.reason
+            raise StepFailed(t=t, step=tried, reason=reason, coarse=coarse)
 
     def _attempt(self, t: float, step: float, *, closely: bool) -> tuple[Outcome, State | None, Verdict | None]:
         """Equilibrium at t; the state and what it is worth, if one was found that the elements can show."""

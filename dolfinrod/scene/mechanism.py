@@ -13,7 +13,7 @@ from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS, Prescribed
 if TYPE_CHECKING:
     from dolfinrod.scene.scene import Scene
 
-__all__ = ["advice", "free_motions", "named", "null_space", "turned_away"]
+__all__ = ["free_motions", "named", "null_space", "turned_away"]
 
 # A rigid motion that supports resist with less than this fraction of their full grip is free.
 FREE = 1e-9
@@ -133,24 +133,6 @@ def _span(rows: np.ndarray) -> np.ndarray:
     """Orthonormal rows that span the same."""
     _, size, right = np.linalg.svd(rows)
     return np.asarray(right[: int((size > FREE).sum())])
-
-
-def advice(scene: Scene) -> str:
-    """What to try where no equilibrium is found, beginning with what nothing holds.
-
-    Args:
-        scene: The scene that was not solved.
-
-    Returns:
-        Sentences without the last full stop.
-    """
-    free = free_motions(scene)
-    support = f"Nothing holds the rods completely: {'; '.join(free)}. " if free else ""
-    steps = scene.motion.steps
-    return (
-        f"{support}Try Static(steps={2 * steps if steps else 8}), more elements, or look at `.result` (what "
-        "converged): the load may have passed a critical point there"
-    )
 
 
 def _direction(v: np.ndarray) -> str:

@@ -1,0 +1,75 @@
+"""Why no equilibrium was found, and what to try, in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from dolfinrod.scene.mechanism import free_motions
+
+if TYPE_CHECKING:
+    from dolfinrod.scene.scene import Scene
+
+__all__ = ["Findings", "advice"]
+
+# Turn between neighbouring sections from which an element is no longer near the rod [rad].
+COARSE = 1.0
+
+
+@dataclass(frozen=True)
+class Findings:
+    """What a solver knows when it gives up.
+
+    Args:
+        t: Pseudo-time of the last equilibrium.
+        pushed: Whether the loads push a rod along a motion that nothing resists.
+        aliased: Whether neighbouring sections turned by more than the elements can tell apart.
+        turned: Largest turn between neighbouring sections at the last equilibrium [rad].
+        critical: Pseudo-time just ahead of it at which the loads are critical, if there is one.
+        lost: Pseudo-time from which on the equilibria are unstable, if they are.
+    """
+
+    t: float
+    pushed: bool = False
+    aliased: bool = False
+    turned: float = 0.0
+    critical: float | None = None
+    lost: float | None = None
+
+
+def advice(scene: Scene, found: Findings) -> str:
+    """The likely cause of a failure and what to try against it.
+
+    Args:
+        scene: The scene that was not solved.
+        found: What is known.
+
+    Returns:
+        Sentences without the last full stop.
+    """
+    free = free_motions(scene)
+    if free and (found.t == 0.0 or found.pushed):
+        return f"Likely a mechanism. Nothing holds the rods completely: {'; '.join(free)}. Try more supports"
+    if found.aliased:
+        return "Likely too few elements for so many turns: try more elements"
+    if found.turned > COARSE:
+        return (
+            f"Likely too few elements for such loads: at t = {found.t:.6g} neighbouring sections have turned by "
+            f"{found.turned:.2g} rad against each other. Try more elements"
+        )
+    if found.critical is not None:
+        return (
+            f"Likely a critical point was passed: the loads are critical at t = {found.critical:.6g}, and beyond it "
+            "no equilibrium lies near. `.result` holds what converged; try prescribed displacements instead of loads"
+        )
+    if found.lost is not None:
+        return (
+            f"Likely a critical point was passed: what converged is unstable from t = {found.lost:.6g} on, and such "
+            "paths are easily lost. Look at `.result` (what converged), or try a small load across the rod, which "
+            "leads to a stable branch"
+        )
+    steps = scene.motion.steps
+    return (
+        f"The iteration did not settle. Try Static(steps={2 * steps if steps else 8}), more elements, or look at "
+        "`.result` (what converged)"
+    )
