@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import discrete
 import dolfinrod as dr
 from tests.scenes import GENERAL, KIRCHHOFF, SKEW, both_kinematics, cantilever, differences, rolled_up, tip_loaded
 
@@ -125,3 +126,25 @@ def test_the_record_tells_what_was_solved(kinematics):
     assert result.formulation.model == "continuum"
     assert sum(result.formulation.unknowns.values()) == result.statistics.dofs
     assert result.statistics.factorizations == result.statistics.newton_iterations
+
+
+def arch() -> dr.Scene:
+    """Shallow, pinned at both ends, pressed down at its middle beyond what it bears."""
+    section = dr.Section(EA=1e4, GJ=1.0, EI=1.0, rigid={"shear"})
+    along, up = (np.cos(0.25), np.sin(0.25), 0.0), (np.sin(0.25), -np.cos(0.25), 0.0)
+    rod = dr.Rod.arc(radius=2.0, angle=0.5, section=section, direction=along, towards=up)
+    return dr.Scene([rod], [dr.Pin("start"), dr.Pin("end")], [dr.PointForce((0.0, -20.0, 0.0), at=0.5)])
+
+
+@pytest.mark.slow
+def test_a_limit_load_is_named_as_the_cause():
+    """Both models give up where the load has its maximum, and say where that is."""
+    critical = []
+    for solve, mesh in ((dr.solve, {"elements": 16}), (discrete.solve, {"elements": 80})):
+        with pytest.raises(
+            dr.NotConverged, match="Likely a critical point was passed: the loads are critical at"
+        ) as it:
+            solve(arch(), **mesh)
+        critical.append(float(it.value.advice.split("critical at t = ")[1].split(",")[0]))
+        assert it.value.t <= critical[-1] <= 1.01 * it.value.t
+    assert critical[0] == pytest.approx(critical[1], rel=1e-3)
