@@ -110,7 +110,8 @@ class PhaseCondition:
 
     def balanced(self) -> bool:
         """Whether what is held needs no force, however far the rods have turned since it was chosen."""
-        needed = float(np.abs(self._problem.held_force).max(initial=0.0))
+        # A quaternion changes by half the spin, so the force on it is twice the moment.
+        needed = 0.5 * float(np.abs(self._problem.held_force).max(initial=0.0))
         return bool(self._problem.discretization.comm.allreduce(needed, op=MPI.MAX) <= BALANCED * self._largest())
 
     def _free(self) -> list[NDArray[np.float64]]:
