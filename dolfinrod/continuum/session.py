@@ -38,9 +38,9 @@ __all__ = ["Session", "opened"]
 class DivergenceJudge(Judge):
     """Looks for divergence only: what flutters is past no critical load."""
 
-    def verdict(self, state: State, t: float, *, closely: bool) -> Verdict:
+    def verdict(self, state: State, t: float, *, closely: bool, doubt: float = 0.0) -> Verdict:
         """Stability by pivots or the sign of the determinant, never by vibrations."""
-        return super().verdict(state, t, closely=False)
+        return super().verdict(state, t, closely=False, doubt=doubt)
 
 
 @dataclass

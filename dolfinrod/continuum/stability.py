@@ -17,6 +17,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from mpi4py import MPI
 from petsc4py import PETSc
 from slepc4py import SLEPc
 
@@ -25,7 +26,7 @@ import numpy as np
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.inertia import Determinant, NegativePivots
 from dolfinrod.continuum.lift import lifted
-from dolfinrod.continuum.mass import densities
+from dolfinrod.continuum.mass import ALIKE, densities
 from dolfinrod.continuum.neutral import PhaseCondition
 from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.pool import borrowed
@@ -35,10 +36,15 @@ from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.scene import Spatial
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from dolfinrod.continuum.readout import State
 
 __all__ = ["Judge", "Verdict", "judging"]
 
+# Motions whose ω² lies below this, in EI/(ρA L⁴), cost nothing but round-off, as when a round rod turns about its own
+# bent axis: they count as stable.
+NEUTRAL = 1e-6
 # Eigenvalues looked at where loads have no potential.
 FEW = 4
 # How well they need to be known: their signs are asked for.
@@ -79,16 +85,18 @@ class Judge:
         self._n_dual = int(d.comm.allreduce(len(np.setdiff1d(duals, problem.constraints.dofs))))
         self._densities = densities(problem.scene)
         self._lumped: PETSc.Mat | None = None
+        self._lift: PETSc.Vec | None = None
         self._pivots = NegativePivots(d.comm)
         self._determinant: Determinant | None = None
 
-    def verdict(self, state: State, t: float, *, closely: bool) -> Verdict:
+    def verdict(self, state: State, t: float, *, closely: bool, doubt: float = 0.0) -> Verdict:
         """Stability of an equilibrium.
 
         Args:
             state: The problem's own current state.
             t: Its pseudo-time.
             closely: Whether eigenvalues are worth their price where loads have no potential.
+            doubt: Moment at a node up to which it is one, in EI/L.
         """
         problem, A = self._problem, self._problem.discretization.matrix
         problem.hold(np.zeros(0, dtype=np.int32))
@@ -96,6 +104,7 @@ class Judge:
             problem.assemble_tangent(A)
             self._phase.hold_null(A)
         problem.assemble_tangent(A, on_sphere=True)
+        A.setDiagonal(self._neutral(A, doubt), PETSc.InsertMode.ADD)
         if problem.conservative:
             unstable = self._pivots.count(A) - self._n_dual
             return Verdict(unstable == 0, unstable, avoidable=unstable > 0)
@@ -129,32 +138,50 @@ class Judge:
         return Verdict(lost == 0 and steady, lost)
 
     def _mass(self, K: PETSc.Mat) -> PETSc.Mat:
-        """Masses ρA and rotary inertia of the sections, shared equally among the nodes of each element."""
+        """Masses ρA and rotary inertia of the sections, the whole matrix on each rank."""
         if self._lumped is None:
-            problem, d = self._problem, self._problem.discretization
-            mine = slice(0, d.n_owned_cells)
-            share = np.diff(problem.ends[mine], axis=1)[:, :, None] / (d.degree + 1)
-            lumped = backend.function(d.space)
-            m = lumped.x.array
-            for field, density in zip(("r", "q"), self._densities, strict=True):
-                np.add.at(m, d.dofs[field][mine], share * density[problem.rod[mine], None, None])
-            backend.sum_over_ranks(lumped)
-            m[problem.constraints.dofs] = 0.0
+            d = self._problem.discretization
             self._lumped = K.duplicate(copy=False)
             diagonal = K.createVecLeft()
-            diagonal.array[:] = np.concatenate(d.comm.allgather(m[: d.n_owned]))
+            diagonal.array[:] = np.concatenate(d.comm.allgather(self._shared(*self._densities)[: d.n_owned]))
             self._lumped.setDiagonal(diagonal)
             self._lumped.assemble()
             diagonal.destroy()
         return self._lumped
+
+    def _neutral(self, A: PETSc.Mat, doubt: float) -> PETSc.Vec:
+        """What lifts the motions that cost nothing off zero, a diagonal; no moment in doubt can turn a section then."""
+        d, (rhoA, rhoI) = self._problem.discretization, self._densities
+        if self._lift is None:
+            self._lift = A.createVecLeft()
+            self._least = NEUTRAL * self._shared(rhoA, np.maximum(rhoI, ALIKE * rhoA))[: d.n_owned]
+        self._lift.array[:] = self._least
+        q = d.owned_nodes("q")
+        # A moment M adds up to 4 M to the stiffness against a change of quaternion, which turns by twice its size.
+        self._lift.array[q] = np.where(self._least[q] > 0.0, np.maximum(self._least[q], 4.0 * doubt), 0.0)
+        return self._lift
+
+    def _shared(self, rhoA: NDArray[np.float64], rhoI: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Densities of the rods shared equally among the nodes of each element, nothing where dofs are held."""
+        problem, d = self._problem, self._problem.discretization
+        mine = slice(0, d.n_owned_cells)
+        share = np.diff(problem.ends[mine], axis=1)[:, :, None] / (d.degree + 1)
+        lumped = backend.function(d.space)
+        m = lumped.x.array
+        for field, density in zip(("r", "q"), (rhoA, rhoI), strict=True):
+            np.add.at(m, d.dofs[field][mine], share * density[problem.rod[mine], None, None])
+        backend.sum_over_ranks(lumped)
+        m[problem.constraints.dofs] = 0.0
+        return m
 
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together."""
         self._pivots.close()
         if self._determinant is not None:
             self._determinant.close()
-        if self._lumped is not None:
-            self._lumped.destroy()
+        for owned in (self._lumped, self._lift):
+            if owned is not None:
+                owned.destroy()
 
 
 class LiftedJudge(Judge):
@@ -168,15 +195,23 @@ class LiftedJudge(Judge):
     def __init__(self, planar: Problem, spatial: Problem) -> None:
         super().__init__(spatial)
         self._plane, self._readout = planar.placement, Readout(spatial)
+        self._residual = backend.function(spatial.discretization.space)
 
-    def verdict(self, state: State, t: float, *, closely: bool) -> Verdict:
-        """Stability in space of a state of the planar problem."""
+    def verdict(self, state: State, t: float, *, closely: bool, doubt: float = 0.0) -> Verdict:
+        """Stability in space of a state of the planar problem, out of balance there by an error of the elements."""
         problem = self._problem
         self._readout.restore(lifted(state, self._plane, problem.placement))
         problem.advance_to(t)
         b = problem.discretization.assembled_residual()
         problem.balance_multipliers(b)
-        return super().verdict(state, t, closely=closely)
+        b = self._residual.x.array
+        b[:] = 0.0
+        problem.add_residual(b)
+        backend.sum_over_ranks(self._residual)
+        problem.clear_held(b)
+        q = problem.discretization.owned_nodes("q")
+        left = problem.discretization.comm.allreduce(float(np.abs(b[q]).max(initial=0.0)), op=MPI.MAX)
+        return super().verdict(state, t, closely=closely, doubt=max(doubt, left))
 
 
 @contextmanager

@@ -158,3 +158,20 @@ def test_the_same_verdict_on_any_number_of_ranks(posed, kinematics, factor):
     )
     assert together.log[-1].unstable_directions == alone.log[-1].unstable_directions
     assert together.log[-1].stable == alone.log[-1].stable == (factor < 1.0)
+
+
+@pytest.mark.parametrize("elements", [8, 16])
+@pytest.mark.parametrize("kinematics", [None, dr.Spatial()], ids=["planar judged in space", "spatial"])
+def test_what_costs_nothing_is_no_instability(kinematics, elements):
+    """A round rod that hangs bent from a pin turns about its own axis at no cost, on any mesh."""
+    section = dr.Section(GJ=0.01, EI=0.01, rigid={"shear", "extension"})
+    loads = [dr.LineForce((0.0, -1.0, 0.0)), dr.PointForce((0.3, 0.0, 0.0), at="end")]
+    result = dr.solve(dr.Scene([straight(section)], [dr.Pin("start")], loads), elements=elements, kinematics=kinematics)
+    assert [row.unstable_directions for row in result.log] == [0] * len(result.log)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("factor", [0.9, 1.1])
+def test_ten_thousand_elements_are_judged_right(factor):
+    log = dr.solve(column(RIGID, factor * EULER), elements=10_000, kinematics=dr.Planar((0.0, 0.0, 1.0))).log
+    assert log[-1].stable == (factor < 1.0)
