@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dolfinrod.scene.fields import At, Field, Growth, Kind, Modulus, Plain, Quantity
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, PointForce, PointMoment
-from dolfinrod.scene.motion import Static
+from dolfinrod.scene.air import Air
+from dolfinrod.scene.motion import Dynamic, Static
 from dolfinrod.scene.rod import Rod
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed
+from dolfinrod.scene.velocity import Velocity
 
-__all__ = ["LOADS", "MOTIONS", "RODS", "SECTION", "SECTIONS", "SUPPORTS"]
+__all__ = ["AIR", "LOADS", "MOTIONS", "RODS", "SECTION", "SECTIONS", "SUPPORTS", "VELOCITIES"]
 
 METRE, NEWTON, NEWTON_METRE = Quantity("m"), Quantity("N"), Quantity("N*m")
 MATERIAL: dict[str, Field] = {
@@ -30,6 +32,7 @@ SECTION = Kind(
         "rhoI": Quantity("kg*m"),
         "rigid": Plain(),
         "radius": METRE,
+        "damping": Quantity("s"),
     },
 )
 SECTIONS = {
@@ -78,4 +81,12 @@ LOADS = {
     "line_force": Kind(LineForce, {"force": Quantity("N/m"), "between": METRE, "rod": Plain(), "history": Growth()}),
     "gravity": Kind(Gravity, {"g": Quantity("m/s**2"), "history": Growth()}),
 }
-MOTIONS = {"static": Kind(Static, {"steps": Plain(), "t_end": Plain()})}
+SECONDS = Quantity("s")
+MOTIONS = {
+    "static": Kind(Static, {"steps": Plain(), "t_end": Plain()}),
+    "dynamic": Kind(
+        Dynamic, {"t_end": SECONDS, "dt": SECONDS, "scheme": Scheme(), "tol": Plain(), "output": SECONDS}
+    ),
+}
+AIR = Kind(Air, {"field": Flow(), "density": Quantity("kg/m**3"), "viscosity": Quantity("Pa*s")})
+VELOCITIES = Kind(Velocity, {"v": Flow(), "omega": Quantity("rad/s"), "about": METRE, "rod": Plain()})

@@ -31,6 +31,7 @@ class Section:
         rhoI: Rotary inertia per length about d1 (polar), d2 and d3 [kg m].
         rigid: Strains that are exactly zero, out of "shear" and "extension".
         radius: Radius of a circular section, where its surface matters [m].
+        damping: Kelvin-Voigt retardation time τ of a moving rod, n = diag(EA, …)(γ + τ γ̇) and so for moments [s].
 
     Raises:
         SceneError: A stiffness that is missing, a stiffness, mass or radius that is not finite and positive, or an
@@ -45,6 +46,7 @@ class Section:
     rhoI: Vector | None
     rigid: frozenset[str]
     radius: float | None
+    damping: float
 
     def __init__(
         self,
@@ -57,6 +59,7 @@ class Section:
         rhoI: Vector | None = None,
         rigid: Iterable[str] = frozenset(),
         radius: float | None = None,
+        damping: float = 0.0,
     ) -> None:
         strains = names(rigid, "Section.rigid", ("shear", "extension"))
         elastic = {"EA": inf if "extension" in strains else EA, "GA": inf if "shear" in strains else GA}
@@ -71,6 +74,7 @@ class Section:
             rhoI=None if rhoI is None else _inertia(rhoI),
             rigid=strains,
             radius=None if radius is None else positive(radius, "Section.radius", "m"),
+            damping=nonnegative(damping, "Section.damping", "s"),
         )
 
     @classmethod
