@@ -60,7 +60,7 @@ class Branches:
         try:
             rate = self._rate(found.state, t, found.tangent)
             pushed = self._judge.pushed(found.tangent, found.state.R, rate) > PUSHED
-            return pushed or self._bent_back(last, found.state, self._onward(last, t_last))
+            return pushed or self.strayed(last, t_last, found.state)
         except SingularTangentError:
             return True
 
@@ -87,9 +87,21 @@ class Branches:
             return t_last
         return t_last + float(min(μ.real, default=np.inf))
 
-    def _bent_back(self, last: State, found: State, onward: Array) -> bool:
-        """Whether a rod has bent against the way in which it set out: to the mirrored branch of an imperfect column."""
-        node_i = self._equilibrium.mesh.elements.node_i
+    def strayed(self, last: State, t_last: float, found: State) -> bool:
+        """Whether a rod has bent another way than it set out, as to the mirrored branch of an imperfect column.
+
+        Args:
+            last: An equilibrium.
+            t_last: Its pseudo-time.
+            found: One found from there.
+
+        Returns:
+            True from some 60° between the change of shape and the rate at which it began.
+
+        Raises:
+            SingularTangentError: The loads are critical at the first.
+        """
+        onward, node_i = self._onward(last, t_last), self._equilibrium.mesh.elements.node_i
         gone = shape_change(last, found, node_i)
         set_out = np.matmul((onward[node_i + 1, SPIN] - onward[node_i, SPIN])[:, None], last.R[node_i])[:, 0]
         along, size = float(np.vdot(gone, set_out)), float(np.linalg.norm(gone) * np.linalg.norm(set_out))

@@ -30,6 +30,8 @@ __all__ = ["buckling", "critical", "modes"]
 MOST_MODES = 100
 # Part of the way to a predicted critical point that is gone: the first is a guess from afar.
 FIRST, FURTHER = 0.5, 0.9
+# Part of a stride by which a prediction that goes on with the rod recedes.
+RECEDED = 0.5
 # Longest stride of the search in t_end, and two predictions in a row that agree so well end it.
 LONGEST, ACCURACY = 0.25, 1e-10
 # Nearer than this part of it, squared the error of a prediction, a critical point is not approached.
@@ -70,8 +72,8 @@ def critical(scene: Scene, *, modes: int = 3, elements: int | Sequence[int] = 80
     """First critical point on the path from t = 0 to t_end, deformation before it included.
 
     From an equilibrium at t the next critical point is predicted at t + μ, with an error of order μ². Each next
-    equilibrium lies short of the prediction; a step that no equilibrium allows, or that went past a critical point,
-    is halved.
+    equilibrium lies short of the prediction, or boldly beyond it where predictions have receded as fast as the rod went
+    on; a step that no equilibrium allows, or that went past a critical point, is halved.
 
     Args:
         scene: The problem.
@@ -88,7 +90,7 @@ def critical(scene: Scene, *, modes: int = 3, elements: int | Sequence[int] = 80
     """
     n = count(modes, "modes", MOST_MODES)
     session = Session(scene, elements, None)
-    before, part, found = np.inf, FIRST, next_critical(session, n)
+    before, gone, part, bold, found = np.inf, 0.0, FIRST, 1.0, next_critical(session, n)
     for _ in range(MOST_STRIDES):
         predicted = min(found.factors, default=np.inf)
         corner = min(targets(scene, session.t, 1), default=session.t)
@@ -97,9 +99,11 @@ def critical(scene: Scene, *, modes: int = 3, elements: int | Sequence[int] = 80
             return found
         if session.t >= corner:
             return _none(found)
-        short = min(part * (predicted - session.t), LONGEST * scene.motion.t_end)
-        found = _stride(session, min(session.t + short, corner), n)
-        before, part = predicted, FURTHER
+        bold = 2.0 * bold if predicted - before > RECEDED * gone else 1.0
+        short = min(part * bold * (predicted - session.t), LONGEST * scene.motion.t_end)
+        start = session.t
+        found = _stride(session, min(start + short, corner), n, predicted)
+        before, gone, part = predicted, session.t - start, FURTHER
     raise session.failed(StepFailed(t=session.t, step=0.0, reason="the predicted critical load does not settle"))
 
 
@@ -127,8 +131,8 @@ def modes(scene: Scene, *, modes: int = 6, at: Result | None = None, elements: i
     session = Session(scene, elements, at)
     mesh = session.equilibrium.mesh
     mass = masses(mesh, ρA, ρI)
-    # Neutral motions are vibrations of zero frequency here: no phase condition.
-    session.release()
+    # Neutral motions are vibrations of zero frequency here: no phase condition where they have inertia.
+    session.release(mass)
     shift = 1.0 / float(mass.m.sum())
     λ, v = spectrum(session.tangent, session.state.R, mass, n, shift=shift)
     λ = np.where(np.abs(λ) <= RIGID * shift, 0.0, λ)
@@ -154,15 +158,14 @@ def _none(found: Buckling) -> Buckling:
     return replace(found, factors=found.factors[:0], multiplicity=found.multiplicity[:0], rods=rods)
 
 
-def _stride(session: Session, t: float, n: int) -> Buckling:
+def _stride(session: Session, t: float, n: int, predicted: float) -> Buckling:
     """Go on to t, or as far as no critical point lies behind; what is predicted from there."""
     start = session.t
     failure = StepFailed(t=start, step=t - start, reason="critical points follow one another too closely")
     for _ in range(MOST_HALVINGS):
         outcome = session.reach(t)
-        if outcome is None or session.judged(outcome).gives_way:
-            t = 0.5 * (start + t)
-            continue
-        session.accept(outcome, t)
-        return next_critical(session, n)
+        if outcome is not None and session.leads_on(outcome, bold=t > predicted):
+            session.accept(outcome, t)
+            return next_critical(session, n)
+        t = 0.5 * (start + t)
     raise session.failed(failure)

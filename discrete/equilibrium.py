@@ -116,7 +116,9 @@ class Equilibrium:
         reason = f"no convergence in {MOST_ITERATIONS} iterations"
         for iteration in range(1, MOST_ITERATIONS + 1):
             try:
-                step = self._iterate(step.state, level, goal, watch)
+                # A chord that vanishes has no direction; what is not finite then ends the iteration below.
+                with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+                    step = self._iterate(step.state, level, goal, watch)
             except SingularTangentError as error:
                 reason = str(error)
                 break
@@ -130,9 +132,10 @@ class Equilibrium:
                 reason = ALIASED if watch.aliased else WANDERING
                 break
             if iteration == 1 and step.turn > trust:
-                reason = "the guess was farther off than the state before"
+                reason = "the iteration leads off the extrapolated path"
                 break
-        return Outcome(step.state, reason == SETTLED, iteration, step.residual, reason, watch.turned, step.tangent)
+        turned, strayed = watch.turned, watch.strayed
+        return Outcome(step.state, reason == SETTLED, iteration, step.residual, reason, turned, step.tangent, strayed)
 
     def _iterate(self, state: State, level: LoadLevel, goal: Array, watch: Watch) -> _Step:
         """One Newton iteration."""

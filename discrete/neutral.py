@@ -2,7 +2,8 @@
 
 A rod between two pins may turn about the line through them, z; every turned state is an equilibrium as long as the
 loads do no work in z, and the tangent is singular along it. One unknown that takes part in z is then held. Where the
-loads do work in z, as in a pendulum held aslant, z is released and the iteration goes on from there.
+loads do work in z, as in a pendulum held aslant, z is released and the iteration goes on from there. In vibrations z is
+one of frequency zero, unless nothing that has inertia moves in it, as in the spin of a straight rod without ρI.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from discrete.equilibrium import Equilibrium
+    from discrete.nodes import Tangent
     from discrete.state import Outcome, State
 
     Array = NDArray[np.float64]
@@ -28,6 +30,8 @@ __all__ = ["PhaseCondition"]
 
 # Work of the loads in a unit motion, over their largest share in it, up to which they are balanced.
 BALANCED = 1e-9
+# Inertia of a unit motion, over the mass of the rods, that is none.
+WEIGHTLESS = 1e-12
 UNBALANCED = "the loads push a rod along a motion that no support resists, and no equilibrium was met that way"
 
 
@@ -72,6 +76,25 @@ class PhaseCondition:
         words = (words for rod, z in enumerate(motions) for words in named(rod, z))
         self.notes = tuple(f"{motion}: balanced, held by a phase condition" for motion in words)
         return found
+
+    def release(self, state: State, tangent: Tangent, M: Array) -> None:
+        """Let go of all free motions that have inertia, and hold those that have none.
+
+        Args:
+            state: An equilibrium.
+            tangent: There; says in which axes spins stand.
+            M: Mass matrices of the nodes in these axes, shape (n_nodes, 7, 7).
+        """
+        first, motions = self.equilibrium.mesh.first, self._free(state)
+        least = WEIGHTLESS * float(np.einsum("nii->", M[:, X, X]))
+        for rod, z in enumerate(motions):
+            moved = np.zeros((len(z), len(M), N_NODE))
+            mine = slice(first[rod], first[rod + 1])
+            moved[:, mine, np.r_[X, SPIN]] = np.einsum("mi,nij->mnj", z, _moved(state.x[mine]))
+            moved = np.array([tangent.in_axes(one) for one in moved]).reshape(moved.shape)
+            inertia, mix = np.linalg.eigh(np.einsum("ani,nij,bnj->ab", moved, M, moved))
+            motions[rod] = mix[:, inertia <= least].T @ z
+        self._hold(state, motions)
 
     def _free(self, state: State) -> list[Array]:
         """Rigid motions (v, ω) of each rod that leave its supported unknowns where they are, shape (n, 6)."""

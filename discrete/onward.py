@@ -28,7 +28,8 @@ __all__ = ["moved", "rate_of_state", "rate_of_tangent", "varies"]
 AHEAD = 1e-4
 # Rate of a factor, over all the pseudo-time, that is round-off of the difference.
 UNCHANGED = 1e-9
-# Turn of a section or chord in a difference step [rad]: its fourth power, the error, is below round-off over the step.
+# Turn of a section or chord in a difference step [rad], and part of itself by which a chord grows: its fourth power,
+# the error, is below round-off over the step.
 TURN = 1e-3
 # Weights of f(jh)/h in f′(0).
 DIFFERENCE = ((1, 8 / 12), (-1, -8 / 12), (2, -1 / 12), (-2, 1 / 12))
@@ -91,7 +92,8 @@ def rate_of_tangent(
     dead = np.sum([w * part.dead for w, part in ahead], axis=0)
     follower = np.sum([w * part.follower for w, part in ahead], axis=0)
     node_i = equilibrium.mesh.elements.node_i
-    chords = (d[node_i + 1, X] - d[node_i, X]) / equilibrium.mesh.elements.l[:, None]
+    e = state.x[node_i + 1] - state.x[node_i]
+    chords = (d[node_i + 1, X] - d[node_i, X]) / np.sqrt(np.einsum("ni,ni->n", e, e))[:, None]
     turn = np.sqrt(max(float(np.square(part).sum(axis=1).max()) for part in (d[:, SPIN], chords)))
     size = max(1.0, float(np.abs(state.F_n).max()))
     h = 1.0 / max(turn / TURN, float(np.abs(d[:, AXIAL]).max()) / size, 1.0 / scene.motion.t_end)

@@ -104,7 +104,8 @@ class Memory:
         x = last.x + a * (last.x - before.x)
         for rod, node in enumerate(first):
             x[node + 1 : mesh.first[rod + 1]] = x[node] + np.cumsum(e[mesh.elements.rod == rod], axis=0)
-        u = e / np.sqrt(np.einsum("ni,ni->n", e, e))[:, None]
+        # A chord that has shrunk to nothing has no direction; no iteration gets anywhere from there.
+        u = e / np.maximum(np.sqrt(np.einsum("ni,ni->n", e, e)), np.finfo(float).tiny)[:, None]
         return State(x, R, u, last.F_n + a * (last.F_n - before.F_n), factors)
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from discrete.branches import Branches
 from discrete.failure import advice
+from discrete.mass import at_nodes
 from discrete.record import recorded
 from discrete.solver import beginning
 from discrete.stability import Judge
@@ -19,6 +19,7 @@ from dolfinrod.scene.door import admit
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from discrete.mass import Masses
     from discrete.nodes import Tangent
     from discrete.stability import Verdict
     from discrete.state import Outcome, State
@@ -60,6 +61,7 @@ class Session:
         self._phase, self._path = beginning(scene, elements, at)
         self.equilibrium = self._phase.equilibrium
         self._judge = Judge(scene, self.equilibrium.mesh)
+        self._branches = Branches(self.equilibrium, self._judge, scene)
         self.t = 0.0 if at is None else float(at.t[-1])
         self.state = self._path.state
         outcome = self.reach(self.t)
@@ -78,18 +80,31 @@ class Session:
         """Its stability."""
         return self._judge.verdict(outcome.tangent, outcome.state.R)
 
+    def leads_on(self, outcome: Outcome, *, bold: bool) -> bool:
+        """Whether no critical point lies between here and there, nor, after a bold stride, the way to a stable branch.
+
+        Args:
+            outcome: An equilibrium.
+            bold: Whether it lies beyond where a critical point was expected.
+        """
+        if self.judged(outcome).gives_way:
+            return False
+        return not (bold and self._branches.strayed(self.state, self.t, outcome.state))
+
     def accept(self, outcome: Outcome, t: float) -> None:
         """Go to an equilibrium."""
         kept = self.equilibrium.snapshot(outcome.state, t)
         energy = kept.energy * self.equilibrium.mesh.units.moment
-        row = StepLog(t, outcome.iterations, 0, outcome.residual, energy, self.judged(outcome).stable)
+        verdict = self.judged(outcome)
+        row = StepLog(t, outcome.iterations, 0, outcome.residual, energy, verdict.stable, verdict.counted)
         self._path.state = self.state = outcome.state
         self._path.accept(kept, row, None, self.scene.motion.t_end)
         self.t, self.tangent = t, self.equilibrium.tangent(outcome.state, self.equilibrium.loads.level(t))
 
-    def release(self) -> None:
-        """Let neutral motions go."""
-        self.equilibrium.hold(np.zeros(0, dtype=np.int64))
+    def release(self, mass: Masses) -> None:
+        """Let neutral motions go in which something with inertia moves."""
+        M = at_nodes(mass.elements(self.state.R, self.tangent), self.tangent)
+        self._phase.release(self.state, self.tangent, M)
         self.tangent = self.equilibrium.tangent(self.state, self.equilibrium.loads.level(self.t))
 
     def result(self, *, converged: bool = True) -> Result:
@@ -104,5 +119,5 @@ class Session:
             t=failure.t,
             step=failure.step,
             reason=failure.reason,
-            advice=advice(self.scene, failure),
+            advice=advice(self.scene, failure, self._path.log),
         )

@@ -147,7 +147,11 @@ def _followed(scene: Scene, run: _Run, seconds_setup: float, progress: Progress 
     result = recorded(scene, run.mesh, run.path, run.notes(), seconds, converged=failure is None)
     if failure is not None:
         raise NotConverged(
-            result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=advice(scene, failure)
+            result=result,
+            t=failure.t,
+            step=failure.step,
+            reason=failure.reason,
+            advice=advice(scene, failure, run.path.log),
         ) from failure
     return result
 

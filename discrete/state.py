@@ -50,6 +50,7 @@ class Outcome:
         reason: Why it stopped, in words.
         turned: Largest net turn of a section on the way [rad].
         last_tangent: None where the first one was singular.
+        strayed: Whether the sections ended up turned against the way they set out.
     """
 
     state: State
@@ -59,6 +60,7 @@ class Outcome:
     reason: str
     turned: float
     last_tangent: Tangent | None
+    strayed: bool
 
     @property
     def tangent(self) -> Tangent:

@@ -37,11 +37,14 @@ class StepFailed(RuntimeError):  # noqa: N818
         step: Step tried last.
         reason: Why the iteration stopped.
         critical: Pseudo-time close ahead at which the loads are critical; None where they are not.
+        turned: Largest turn of the ends of an element against each other in the last equilibrium [rad].
     """
 
-    def __init__(self, *, t: float, step: float, reason: str, critical: float | None = None) -> None:
+    def __init__(
+        self, *, t: float, step: float, reason: str, critical: float | None = None, turned: float = 0.0
+    ) -> None:
         super().__init__(reason)
-        self.t, self.step, self.reason, self.critical = t, step, reason, critical
+        self.t, self.step, self.reason, self.critical, self.turned = t, step, reason, critical, turned
 
 
 AnyState = TypeVar("AnyState")

@@ -14,6 +14,7 @@ import numpy as np
 from discrete.branches import Branches
 from discrete.predictor import Memory
 from discrete.statics import StepFailed, corners, targets
+from discrete.watch import Watch
 from dolfinrod.result import StepLog
 
 if TYPE_CHECKING:
@@ -89,17 +90,20 @@ class Walk:
             if verdict is None:
                 cuts, self._step = cuts + 1, trial / 2.0
                 if self._step <= interval / 2**MOST_CUTS:
-                    raise StepFailed(t=t, step=trial, reason=outcome.reason, critical=self._critical(interval))
+                    raise self._failed(trial, outcome.reason, interval)
                 continue
             self._accept(outcome, verdict, t_next, cuts, progress)
             # A step that the target has cut short says nothing against a longer one.
             grown = 2.0 * trial if cuts == 0 and outcome.iterations <= EASY else trial
             self._step, cuts = max(self._step, grown), 0
 
-    def _critical(self, interval: float) -> float | None:
-        """Pseudo-time close ahead of the last state at which the loads are critical, if there is one."""
-        found = self._branches.next_critical(self._memory.state, self._memory.t)
-        return found if found - self._memory.t < CLOSE * interval else None
+    def _failed(self, step: float, reason: str, interval: float) -> StepFailed:
+        """What a step that could not be taken leaves to be known."""
+        t, state = self._memory.t, self._memory.state
+        critical = self._branches.next_critical(state, t)
+        near = critical - t < CLOSE * interval
+        turned = Watch(self._phase.equilibrium.mesh.elements, state.R).apart
+        return StepFailed(t=t, step=step, reason=reason, critical=critical if near else None, turned=turned)
 
     def _attempt(self, t: float) -> Outcome:
         """Equilibrium from the extrapolated state if that is a good guess, else from the last one.
@@ -122,8 +126,8 @@ class Walk:
 
     def _unwanted(self, outcome: Outcome, verdict: Verdict | None, t: float) -> bool:
         """Whether another branch may lead on: beyond a critical point, or where an unstable path was not kept to."""
-        if verdict is None or verdict.stable:
-            return False
+        if verdict is None or outcome.strayed or verdict.stable:
+            return verdict is not None and outcome.strayed
         if self._stable is False:
             return self._memory.extrapolates and outcome.turned > STRAYED
         return (
@@ -148,5 +152,5 @@ class Walk:
         self._memory.add(t, outcome.state)
         kept = equilibrium.snapshot(outcome.state, t)
         energy = kept.energy * equilibrium.mesh.units.moment
-        row = StepLog(t, outcome.iterations, cuts, outcome.residual, energy, verdict.stable)
+        row = StepLog(t, outcome.iterations, cuts, outcome.residual, energy, verdict.stable, verdict.counted)
         path.accept(kept, row, progress, self._scene.motion.t_end)

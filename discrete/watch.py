@@ -22,6 +22,9 @@ ALIASED = "sections at the ends of an element turned by half a turn against each
 # What a section may turn in excess of its net turn before the iteration is given up [rad]. Those that settle from a
 # whole follower load of 20 EI/L² spend 5 on going back and forth, those that never settle 3/4 an iteration.
 MOST_WANDERING = 8.0
+# The first increment is the rate of the path: a rod that turned the other way in the end, by more than this [rad], has
+# gone to another branch.
+STRAYED = 1e-2
 # Turn of the ends of an element against each other at which it is refused [rad]; half a turn and less are one.
 MOST_TURNED = 0.95 * np.pi
 
@@ -37,6 +40,7 @@ class Watch:
     def __init__(self, elements: Elements, R: Array) -> None:
         self._elements = elements
         self._way, self._net = np.zeros(len(R)), np.zeros((len(R), 3))
+        self._set_out: Array | None = None
         self._between = self._measured(R)
         self._bound = float(_lengths(self._between).max())
 
@@ -44,6 +48,16 @@ class Watch:
     def turned(self) -> float:
         """Largest net turn of a section so far [rad]."""
         return float(_lengths(self._net).max())
+
+    @property
+    def strayed(self) -> bool:
+        """Whether the sections have turned, in all, against the way they set out, as to a mirrored branch."""
+        return self._set_out is not None and self.turned > STRAYED and float(np.vdot(self._net, self._set_out)) < 0.0
+
+    @property
+    def apart(self) -> float:
+        """Largest turn of the ends of an element against each other [rad]; a bound from above once seen to be small."""
+        return self._bound
 
     @property
     def wandering(self) -> bool:
@@ -62,6 +76,8 @@ class Watch:
         """
         self._way += _lengths(spin)
         self._net += spin
+        if self._set_out is None:
+            self._set_out = spin
         node_i = self._elements.node_i
         self._bound += float(_lengths(spin[node_i + 1] - spin[node_i]).max())
         if self._bound < MOST_TURNED:

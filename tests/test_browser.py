@@ -63,11 +63,12 @@ return [...document.querySelectorAll('figure svg')].flatMap(svg => {
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory):
-    """The report of a quick run over one case a family, and the laws."""
+    """The report of a quick run over one case a family, the laws, and a few trials of every kind."""
+    from verification import trials
     from verification.plan import LAWS, headlines
 
     folder = tmp_path_factory.mktemp("report")
-    words = ["verify", *headlines(), LAWS, "--quick", "--out", str(folder)]
+    words = ["verify", *headlines(), LAWS, *trials.names(), "--quick", "--out", str(folder)]
     done = subprocess.run([sys.executable, "-m", "dolfinrod.cli", *words], capture_output=True, text=True, check=False)
     assert done.returncode in (0, 1), done.stderr
     return folder / "index.html"

@@ -14,9 +14,13 @@
 `laws`          what holds whatever the numbers are: `violations` of it, on `lawscenes`
 `onestep`       whole loads in one step: Newton iterations against limits
 `speed`         milliseconds against limits and against other people's solvers
+`eigencase`     a critical load or a frequency as a case; `eigencases`, a file a family; `eigenmodels`, who is asked
+`stability`     critical loads and frequencies against references, verdicts below and above
+`hardcase`      what solvers stumble over, with a check; `hardcases`, such scenes; `hard`, how they end
+`robustness`    largest load in one step; fewest steps of `benchmarks`
 `checks`        errors, orders and digits that must hold
 `shape`         what is drawn
-`plan`          all that is to be done, as units
+`plan`          all that is to be done, as units; `trials`, those of stability, hard cases and robustness
 `ledger`        finished units on disk; `interrupt` and `progress` of a run
 `suite`         all of it, as one record
 `report`        the record as a page and as JSON

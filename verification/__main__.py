@@ -76,6 +76,7 @@ def listed(options: Namespace) -> int:
     from verification.cases import CASES
     from verification.plan import LAWS, families, selected
     from verification.statement import family_title
+    from verification.trials import listing
 
     names = set(selected(options.names))
     for family in families():
@@ -86,6 +87,8 @@ def listed(options: Namespace) -> int:
             print(f"  {case.name:<34}{case.title}")
     if LAWS in names:
         print(f"{LAWS}: what holds whatever the numbers are")
+    for name, words in listing(tuple(names)):
+        print(f"{name:<36}{words}" if name.startswith(" ") else f"{name}: {words}")
     return HOLDS
 
 

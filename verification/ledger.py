@@ -16,26 +16,27 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
 from verification.checks import Check
+from verification.hard import HardRow
 from verification.laws import LawRow
 from verification.machine import Machine
 from verification.onestep import OneStep
 from verification.order import Order
 from verification.references import Peer
+from verification.robustness import OneStepLoads, Steps
 from verification.shape import Shape
 from verification.speed import Speed
+from verification.stability import Bracket, EigenStudy
 from verification.workprecision import Record, Study, Timing
 
 __all__ = ["Ledger", "Unit", "source_hash"]
 
-Row = Check | LawRow | OneStep | Shape | Speed | Study
-RECORDS: dict[str, Any] = {
-    kind.__name__: kind for kind in (Check, LawRow, OneStep, Order, Peer, Record, Shape, Speed, Study, Timing)
-}
+Row = Bracket | Check | EigenStudy | HardRow | LawRow | OneStep | OneStepLoads | Shape | Speed | Steps | Study
+RECORDS: dict[str, Any] = {kind.__name__: kind for kind in (*get_args(Row), Order, Peer, Record, Timing)}
 PACKAGES = ("dolfinrod", "discrete", "verification")
 NAME = re.compile("[0-9a-f]{24}")
 # What numbers can depend on; the page is written anew every time.
@@ -47,7 +48,8 @@ class Unit:
     """A piece of work that is done whole or not at all.
 
     Args:
-        topic: Of the report: "study", "shape", "limit", "one step", "speed" or "law".
+        topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
+            "largest" or "fewest".
         words: What is solved, for people.
         parameters: What sets it apart from others of its topic; strings and numbers.
         work: Solves it; returns a row, or rows, for the report.

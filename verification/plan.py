@@ -9,7 +9,7 @@ from fnmatch import fnmatchcase
 from functools import partial
 
 from dolfinrod.scene import SceneError
-from verification import cases, checks, laws, onestep, speed
+from verification import cases, checks, laws, onestep, speed, trials
 from verification.case import Case
 from verification.ledger import Unit
 from verification.models import BOTH, Continuum, Discrete, Model, natural
@@ -73,7 +73,7 @@ def headlines() -> tuple[str, ...]:
 
 def known() -> tuple[str, ...]:
     """Whatever may be asked for by name."""
-    return (*families(), LAWS, *(case.name for case in cases.CASES))
+    return (*families(), LAWS, *(case.name for case in cases.CASES), *trials.names())
 
 
 def selected(names: Iterable[str]) -> tuple[str, ...]:
@@ -117,6 +117,7 @@ def plan(names: tuple[str, ...], *, quick: bool) -> tuple[Unit, ...]:
         *(unit for case in asked for unit in _of_case(case, quick)),
         *_limits(chosen, quick),
         *_laws(names),
+        *trials.units(names, quick=quick),
     )
 
 

@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING, Any
 from verification.cases import CASES
 from verification.checks import Check, digit_checks, order_checks
 from verification.crosscheck import CrossCheck, crosschecks
+from verification.hard import HardRow, Share, shares
 from verification.laws import LawRow
 from verification.machine import Machine
 from verification.onestep import OneStep
 from verification.plan import headlines
 from verification.reach import Reach, reaches
+from verification.robustness import OneStepLoads, Steps
 from verification.speed import Speed
+from verification.stability import Bracket, EigenStudy
 from verification.statement import Statement, statement
 from verification.workprecision import Study
 
@@ -25,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Missed", "Report", "report", "work_off"]
 
-Missed = Check | OneStep | CrossCheck | LawRow
+Missed = Check | OneStep | CrossCheck | LawRow | EigenStudy | Bracket | HardRow | Share | OneStepLoads | Steps
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,12 @@ class Report:
         studies: Every case by every model that poses it, on meshes from coarse to fine.
         crosschecks: Both models against each other.
         laws: Violations against bounds.
+        critical: Critical loads and frequencies against references.
+        brackets: Verdicts below and above critical loads.
+        hard: What solvers stumble over.
+        shares: Of the hard cases converged, where all of a model were asked for.
+        largest: Loads taken at once.
+        fewest: Load steps taken by default.
         reaches: Quickest measured runs to given errors.
         shapes: To draw.
     """
@@ -57,6 +66,12 @@ class Report:
     studies: tuple[Study, ...]
     crosschecks: tuple[CrossCheck, ...]
     laws: tuple[LawRow, ...]
+    critical: tuple[EigenStudy, ...]
+    brackets: tuple[Bracket, ...]
+    hard: tuple[HardRow, ...]
+    shares: tuple[Share, ...]
+    largest: tuple[OneStepLoads, ...]
+    fewest: tuple[Steps, ...]
     reaches: tuple[Reach, ...]
     shapes: tuple[Shape, ...] = field(default=(), repr=False)
 
@@ -74,8 +89,10 @@ class Report:
     def missed(self) -> tuple[Missed, ...]:
         """Numbers beyond their limits, of those that do not depend on the machine."""
         missed: list[Missed] = [row for row in self.checks if row.missed]
-        for rows in (self.one_step, self.crosschecks, self.laws):
+        kinds = (self.one_step, self.crosschecks, self.laws, self.critical, self.brackets)
+        for rows in (*kinds, self.hard, self.shares, self.largest):
             missed += [row for row in rows if not row.holds]
+        missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
 
 
@@ -125,6 +142,7 @@ def report(rows: dict[str, Any], names: Iterable[str], machine: Machine, *, quic
     asked = set(names)
     studies: tuple[Study, ...] = rows.get("study", ())
     deep = [s for s in studies if s.case in headlines()]
+    found: tuple[HardRow, ...] = rows.get("hard", ())
     return Report(
         machine=machine,
         quick=quick,
@@ -136,6 +154,12 @@ def report(rows: dict[str, Any], names: Iterable[str], machine: Machine, *, quic
         studies=studies,
         crosschecks=crosschecks(studies, {case.name: case.length for case in CASES}),
         laws=rows.get("law", ()),
+        critical=rows.get("critical", ()),
+        brackets=rows.get("bracket", ()),
+        hard=found,
+        shares=shares(found),
+        largest=rows.get("largest", ()),
+        fewest=rows.get("fewest", ()),
         reaches=reaches(studies),
         shapes=rows.get("shape", ()),
     )

@@ -156,20 +156,21 @@ class PhaseCondition:
         return max(1.0, float(d.comm.allreduce(max(sizes), op=MPI.MAX)))
 
 
-def equilibrium(newton: Newton, phase: PhaseCondition) -> Outcome:
+def equilibrium(newton: Newton, phase: PhaseCondition, last: NDArray[np.float64] | None = None) -> Outcome:
     """Equilibrium with free motions held, and from there with those released along which the loads push.
 
     Args:
         newton: Solver of the problem.
         phase: Its free motions.
+        last: The equilibrium on this rank that the problem's state was extrapolated from, if it was.
 
     Returns:
         How the attempt ended, all iterations counted.
     """
     if not phase.needed:
-        return newton.solve()
+        return newton.solve(last)
     phase.hold()
-    found = newton.solve()
+    found = newton.solve(last)
     while found.converged and phase.drop_pushed():
         again = newton.solve()
         reason = again.reason if again.converged else UNBALANCED

@@ -17,6 +17,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from dolfinrod.continuum.direct import LIBRARY_ERROR, lu
+from dolfinrod.continuum.watch import Watch
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,8 +28,6 @@ __all__ = ["Newton", "Outcome"]
 
 # Largest turn of a section in one iteration [rad]: beyond it the linearised rotation says nothing any more.
 LARGEST_TURN = 2.0
-# Sections that turned this far in all beyond where they got [rad] are lost: what leads somewhere turns one way.
-LARGEST_DETOUR = 4.0 * LARGEST_TURN
 # Increments relative to the unknowns (and to 1 rad, L, EI/L², EI/L) at which an iteration has converged.
 TOLERANCE = 1e-9
 # Where Newton converges quadratically, an increment this small is known to come next without computing it.
@@ -56,12 +55,14 @@ class Outcome:
         iterations: Newton iterations done.
         residual: Norm of the last residual in working units.
         reason: The SNES reason in words.
+        strayed: Whether the rods ended up turned against the way they set out.
     """
 
     converged: bool
     iterations: int
     residual: float
     reason: str
+    strayed: bool = False
 
 
 class Newton:
@@ -106,12 +107,15 @@ class Newton:
             database.delValue(name)
         return snes
 
-    def solve(self) -> Outcome:
-        """Equilibrium at the problem's pseudo-time, from the problem's state; on failure the state is lost."""
+    def solve(self, last: NDArray[np.float64] | None = None) -> Outcome:
+        """Equilibrium at the problem's pseudo-time, from the problem's state; on failure the state is lost.
+
+        Args:
+            last: The equilibrium on this rank that the state was extrapolated from; None: it is one itself.
+        """
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
-        self._travelled, self._lost = 0.0, False
-        self._net = np.zeros((len(self._q), self.problem.kinematics.n_spin))
+        self._watch = Watch(self.problem, last)
         reason = self._run()
         iterations = self.snes.getIterationNumber()
         self.factorizations += iterations
@@ -121,7 +125,7 @@ class Newton:
             return Outcome(False, iterations, np.nan, REASONS[SINGULAR])
         # The last residual was that of the solution, and left the problem there with multipliers in balance.
         words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
-        return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words)
+        return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words, self._watch.strayed())
 
     def _run(self) -> int:
         """The SNES reason for which it stopped."""
@@ -172,10 +176,7 @@ class Newton:
         if turn > LARGEST_TURN:
             increment *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
-            self._net += np.einsum("nij,nj->ni", kin.spin(q), increment)
-            self._travelled += LARGEST_TURN
-            (net,) = self._largest(np.linalg.norm(self._net, axis=1))
-            self._lost = bool(self._travelled - net > LARGEST_DETOUR)
+        self._watch.see(np.einsum("nij,nj->ni", kin.spin(q), increment), limited=turn > LARGEST_TURN)
         y[self._q] = q - kin.turn(q, increment)
         before, self._size = (self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0))))
         # Quadratic convergence: the ratio of an increment to the square of the one before, and never less than 1.
@@ -192,7 +193,7 @@ class Newton:
         reasons = PETSc.SNES.ConvergedReason
         if not np.isfinite(norms[2]) or np.isnan(self._size):
             return reasons.DIVERGED_FNORM_NAN
-        if self._lost:
+        if self._watch.lost:
             return reasons.DIVERGED_DTOL
         if iteration > 0 and (self._size < TOLERANCE or self._next < NEGLIGIBLE):
             return reasons.CONVERGED_SNORM_RELATIVE

@@ -166,8 +166,8 @@ class Walk:
         outcome, state, verdict = self._attempt(t_next, tried, closely=t_next == target)
         path.iterations += outcome.iterations
         if state is not None and verdict is not None:
-            # The way to a stable state may only be too steep for so long a step.
-            lost = verdict.avoidable and path.stable is not False
+            # The way to a stable state may only be too steep for so long a step, or lead to where the path does not.
+            lost = outcome.strayed or (verdict.avoidable and path.stable is not False)
             if not lost or tried <= interval / 2**MOST_DETOURS:
                 self._accept(t_next, outcome, state, verdict)
                 self._stride.succeed(tried, outcome.iterations)
@@ -184,10 +184,12 @@ class Walk:
         """Equilibrium at t; the state and what it is worth, if one was found that the elements can show."""
         path, problem = self.path, self.newton.problem
         smooth = len(path.log) > 1 and path.log[-1].iterations <= SMOOTH and path.t[-1] not in self._corners
+        last = None
         if smooth and step <= (path.t[-1] - path.t[-2]) * (1 + 1e-9):
+            last = problem.x.copy()
             self._readout.restore(self._extrapolated(step / (path.t[-1] - path.t[-2])))
         problem.advance_to(t)
-        outcome = equilibrium(self.newton, self._phase)
+        outcome = equilibrium(self.newton, self._phase, last)
         if not outcome.converged:
             return outcome, None, None
         turn = problem.largest_turn_between_nodes()

@@ -16,7 +16,8 @@ from discrete.mesh import mesh
 from discrete.neutral import PhaseCondition
 from discrete.solver import beginning
 from discrete.stability import Judge
-from tests.discrete.test_buckling import ENDS, EULER, FIRST, LATER, column, greenhill
+from tests.discrete.test_buckling import ENDS, EULER, column
+from tests.discrete.test_twist import FIRST, LATER, greenhill
 from tests.scenes import FLAT, KIRCHHOFF, SKEW, followed, largest, rolled_up, tip_loaded
 
 
@@ -112,7 +113,8 @@ def test_a_whiff_of_lateral_load_leads_to_the_buckled_branch(pose):
 
 
 @pytest.mark.parametrize(
-    ("overload", "imperfection"), [(1.2, 1e-2), (3.0, 1e-4), pytest.param(1.2, 1e-4, marks=pytest.mark.slow)]
+    ("overload", "imperfection"),
+    [(1.2, 1e-2), *(pytest.param(overload, 1e-4, marks=pytest.mark.slow) for overload in (1.2, 3.0))],
 )
 def test_any_whiff_does(overload, imperfection):
     P = overload * EULER["clamped-free"]
@@ -155,6 +157,16 @@ def test_a_failure_near_a_limit_point_names_it():
     assert failure.value.result.log[-1].t == failure.value.t
 
 
+def test_a_failure_on_an_unstable_path_says_where_that_began():
+    """A column pushed together along its axis: 1e8 EI/L² resists, no whiff is felt, nothing is left of it at t = 1."""
+    supports = [dr.Clamp("start"), dr.Prescribed("end", displacement=(-1.0, 0, 0), rotation=(0, 0, 0))]
+    with pytest.raises(dr.NotConverged, match=r"unstable from t = 0\.5 on") as failure:
+        discrete.solve(dr.Scene([FLAT.straight(KIRCHHOFF)], supports, [dr.PointForce((0, 0.1, 0), 0.5)]), elements=6)
+    result = failure.value.result
+    assert 0.99 < result.log[-1].t == failure.value.t < 1.0
+    assert np.isfinite(result.rods[0].r).all()
+
+
 @pytest.mark.serial
 def test_the_flag_is_cheap():
     """Judging an elastica of 80 elements next to solving it, both in one run; the bound leaves room for noise."""
@@ -171,7 +183,7 @@ def test_the_flag_is_cheap():
             started = time.perf_counter()
             act()
             seconds[name] = min(seconds[name], time.perf_counter() - started)
-    assert seconds["judge"] < 0.3 * seconds["solve"]
+    assert seconds["judge"] < 0.25 * seconds["solve"]
 
 
 def test_compressing_after_twisting_is_another_path_to_the_same_state():

@@ -6,7 +6,20 @@ import pytest
 
 from dolfinrod.scene import Planar, Spatial
 from verification.case import SKEW
-from verification.cases import CASES, bar, bend45, cable, elastica, follower, heavy, helix, parabola, rollup, spring
+from verification.cases import (
+    CASES,
+    bar,
+    bend45,
+    cable,
+    elastica,
+    follower,
+    heavy,
+    helix,
+    parabola,
+    postbuckling,
+    rollup,
+    spring,
+)
 from verification.models import Continuum, Discrete
 from verification.workprecision import measure, study
 
@@ -135,6 +148,8 @@ def test_every_case_is_solved_by_every_model_that_poses_it(model, case):
         assert model.family not in case.models or not case.planar
         return
     elements, limit = (16 * case.turns, 1e-8) if model.family == "continuum" else (80, 5e-3)
+    if case.note == postbuckling.STAND_IN:
+        limit = max(limit, 1e-7)
     record = measure(case, model, elements, pose=SKEW)
     assert record.failure is None
     assert record.error < limit

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from dataclasses import fields, replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from verification.case import Case
 from verification.cases import bend45, elastica
 from verification.checks import Check
 from verification.crosscheck import CrossCheck
+from verification.hard import HardRow, Share
 from verification.laws import LawRow
 from verification.machine import this_machine
 from verification.models import Continuum, Discrete
@@ -31,8 +32,10 @@ from verification.report.page import html
 from verification.report.remarks import deviations
 from verification.report.shapes import projection
 from verification.report.tables import Column, Mark, scientific, table
+from verification.robustness import LOADS, OneStepLoads, Steps
 from verification.shape import Shape
 from verification.speed import Speed
+from verification.stability import Bracket, EigenStudy
 from verification.statement import statement
 from verification.suite import Report
 from verification.workprecision import Record, Study, Timing
@@ -43,6 +46,32 @@ TEN = elastica.inextensible(10.0)
 BEND = bend45.bend(600.0, kirchhoff=True)
 VOID = {"area", "base", "br", "col", "hr", "img", "input", "link", "meta", "source"}
 TIMING = Timing(3, solve=5.0, solve_min=4.5, setup=3.0, call=9.0, call_min=8.0, compile=2000.0)
+CRITICAL = EigenStudy(
+    "column-PP",
+    "Column",
+    "columns",
+    "P L²/EI",
+    "continuum P3",
+    9.87,
+    "F1; closed form",
+    (4, 8),
+    (9.88, 9.87),
+    (1e-3, 1e-8),
+    Order(6.0, 6, (4, 8), 1e-3),
+    2,
+    2,
+    1e-6,
+    5.0,
+    None,
+    "",
+)
+BRACKET = Bracket("column-PP", "Column", "continuum P3", 0.995, 1.005, (True, False), (0, 2), 2, None)
+SOLVED = HardRow(
+    "soft", "supports", "Soft rod", "continuum", "16 × P3", "converged", "", 2, 9, 1, True, 1e-9, "straight", 5.0
+)
+REFUSED = replace(SOLVED, model="discrete", outcome="refused", reason="diverged", stable=None, error=np.nan)
+AT_ONCE = OneStepLoads("continuum P3 planar", (5,) * len(LOADS), 5000.0)
+FEW = Steps("rollup-10", "Ten turns", "continuum P3 spatial", 80, 3, 60, 2, 1e-9, 3, 60, "P2a", None)
 ARC = np.array([[0.0, 0.0, 0.0], [0.6, 0.3, 0.1], [0.8, 0.6, 0.4]])
 
 
@@ -82,6 +111,12 @@ def report(**changes: object) -> Report:
         laws=(
             LawRow("rest", "Rest", "What is at rest stays so.", "test_cli.py::test_x", "discrete chord", 1e-15, 1e-11),
         ),
+        critical=(CRITICAL,),
+        brackets=(BRACKET,),
+        hard=(SOLVED, REFUSED),
+        shares=(Share(19, 20, 0.95),),
+        largest=(AT_ONCE,),
+        fewest=(FEW, replace(FEW, model="discrete chord", most_steps=None, failure="diverged")),
         reaches=reaches(studies),
         shapes=(
             Shape(TEN.name, (ARC * (1, 1, 0),), (ARC * (1, 1, 0),), (ARC * (1, 1, 0),), (), TEN.reference.value),
@@ -199,8 +234,8 @@ def test_a_deviation_that_the_case_explains_is_marked_but_no_miss():
 
 
 def test_an_empty_report_is_a_page_too():
-    nothing = dict.fromkeys(("statements", "checks", "one_step", "speeds", "studies", "crosschecks", "laws"), ())
-    text = html(report(**nothing, reaches=(), shapes=()))
+    nothing = {f.name: () for f in fields(Report) if f.name not in ("machine", "quick", "headlines")}
+    text = html(report(**nothing))
     assert outline(text).open == []
     assert 'id="machine"' in text
 
@@ -228,7 +263,24 @@ LONG = Check(TEN.name, TEN.title, Continuum(3).name, "8 × P3", "error of the ti
 LATE = OneStep(TEN.name, TEN.title, "spatial", "8 × P3", 9, 8, 1, 1e-7, None)
 APART = CrossCheck(TEN.name, TEN.title, 20, 1e-2, 1e-3, 1e-9)
 BROKEN = LawRow("rest", "Rest", "…", "test_cli.py::test_x", "discrete chord", 1e-3, 1e-11)
-MISSES = {"checks": (LONG,), "one_step": (LATE,), "crosschecks": (APART,), "laws": (BROKEN,)}
+OFF = replace(CRITICAL, errors=(1e-3, 1e-5))
+BLIND = replace(BRACKET, stable=(True, True), directions=(0, 0))
+WRONG = replace(SOLVED, outcome="WRONG", error=0.3)
+FEWER = Share(18, 20, 0.95)
+LIGHT = replace(AT_ONCE, iterations=(5, 5, None, *AT_ONCE.iterations[3:]))
+MORE = replace(FEW, iterations=91)
+MISSES = {
+    "checks": (LONG,),
+    "one_step": (LATE,),
+    "crosschecks": (APART,),
+    "laws": (BROKEN,),
+    "critical": (OFF,),
+    "brackets": (BLIND,),
+    "hard": (WRONG,),
+    "shares": (FEWER,),
+    "largest": (LIGHT,),
+    "fewest": (MORE,),
+}
 
 
 def test_a_miss_is_a_marked_row():
@@ -241,7 +293,7 @@ def test_a_miss_is_a_marked_row():
 def test_misses_stand_on_the_first_screen_and_at_their_cases():
     text = html(report(**MISSES))
     first = text.split("<nav")[0]
-    assert "Beyond their limits: 4" in first
+    assert f"Beyond their limits: {len(MISSES)}" in first
     assert all(sentence(row) in first.replace("&#x27;", "'") for rows in MISSES.values() for row in rows)
     assert text.split(f'id="case-{TEN.name}"')[1].count("Missed: ") == 3
 
@@ -260,6 +312,15 @@ def test_misses_stand_on_the_first_screen_and_at_their_cases():
         (APART, "differ by 1.0e−2 on 20 discrete elements, estimated 1.0e−3"),
         (replace(APART, failure="diverged"), "diverged"),
         (BROKEN, "violates it by 1.0e−3, at most 1e−11"),
+        (OFF, "errors 1.0e−3 (4) · 1.0e−5 (8), order 6.00 of 6, 2 mode(s) of 2"),
+        (replace(OFF, found=(9.9, np.nan), failure="8 elements: none"), "P L²/EI – instead of 9.87; 8 elements: none"),
+        (BLIND, "stable below the critical load and stable above, directions lost 0; expected stable, unstable, 2"),
+        (replace(BLIND, failure="diverged"), "no verdict on both sides of the critical load: diverged"),
+        (WRONG, "continuum 16 × P3 ends 3.0e−1 off (straight), stable, without a warning"),
+        (FEWER, "18 of 20 continuum rows converge, at least 95 %"),
+        (LIGHT, "takes 2 EI/L², at least 5000"),
+        (MORE, "took 3 load step(s) and 91 iterations, error 1.0e−9; at most 3 step(s) and at most 60 iterations"),
+        (replace(FEW, failure="diverged"), "on 80 elements did not converge: diverged"),
     ],
 )
 def test_a_miss_is_said_in_a_sentence(row, words):
@@ -282,6 +343,19 @@ def test_exit_code_follows_numbers_never_time(changes, code, tmp_path, monkeypat
     output = capsys.readouterr()
     assert output.out.splitlines()[-1] == str(tmp_path / "index.html")
     assert output.err.count("missed") == code
+
+
+def test_a_refusal_with_a_reason_is_marked_but_no_miss(page):
+    part = page.split('id="hard"')[1].split("</section>")[0]
+    assert "✗ refused" in part
+    assert "diverged" in part
+    assert "95 %" in part
+
+
+def test_hard_cases_solved_are_counted_on_the_first_screen(page):
+    first = page.split("<nav")[0]
+    assert "✓ 19 of 20" in first
+    assert "✗ 18 of 20" in html(report(shares=(FEWER,)))
 
 
 def test_a_deviating_order_is_put_into_words():

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dolfinrod.scene import SceneError
-from verification import cases, ledger
+from verification import cases, eigencases, hardcases, ledger
 from verification.interrupt import Interrupt
 from verification.ledger import Ledger, Unit, decode, encode
 from verification.machine import this_machine
@@ -27,6 +27,7 @@ pytestmark = pytest.mark.serial
 
 MACHINE = this_machine()
 NUMBERS = st.floats(allow_nan=False)
+TRIALS = ("critical", "bracket", "hard", "largest", "fewest")
 TIMING = Timing(3, solve=5.0, solve_min=4.5, setup=3.0, call=9.0, call_min=8.0, compile=2000.0)
 
 
@@ -70,6 +71,29 @@ def test_names_stand_for_cases_families_and_wildcards():
         case.name for case in cases.rollup.CASES
     }
     assert {unit.topic for unit in plan(selected((LAWS,)), quick=True)} == {"law"}
+    assert {unit.topic for unit in plan(selected(("columns",)), quick=True)} == {"critical", "bracket"}
+    assert {unit.parameters for unit in plan(selected(("hard:mesh-1",)), quick=True)} == {
+        ("mesh-1", "continuum"),
+        ("mesh-1", "discrete"),
+    }
+
+
+def test_no_name_stands_for_two_things():
+    assert len(set(known())) == len(known())
+
+
+def test_all_trials_are_planned_and_a_few_of_every_kind_in_a_quick_run():
+    everything, few = (
+        {kind: [u.parameters for u in plan(selected(()), quick=quick) if u.topic == kind] for kind in TRIALS}
+        for quick in (False, True)
+    )
+    assert {parameters[0] for parameters in everything["critical"]} == {case.name for case in eigencases.CASES}
+    assert {parameters[0] for parameters in everything["hard"]} == {case.name for case in hardcases.CASES}
+    for kind in TRIALS:
+        assert few[kind]
+        assert {parameters[:2] for parameters in few[kind]} <= {parameters[:2] for parameters in everything[kind]}
+    names = {parameters[0] for parameters in few["hard"]}
+    assert {case.group for case in hardcases.CASES if case.name in names} == {case.group for case in hardcases.CASES}
 
 
 def test_a_name_that_stands_for_nothing_is_refused_with_those_that_look_like_it():

@@ -14,7 +14,7 @@ __all__ = ["main"]
 
 def main() -> None:
     """Solve every boundary-value problem that a case refers to, and write the file."""
-    known = [case.reference for case in (*CASES, *spans.ALIGNED)]
+    known = [case.reference for case in (*CASES, *spans.ALIGNED, *spans.FAR)]
     entries = {one.id: computed(one.problem, one.at) for one in known if isinstance(one, Solved)}
     path = Path(references.__file__).with_name("bvp.json")
     path.write_text(json.dumps(entries, indent=2) + "\n", encoding="utf-8")

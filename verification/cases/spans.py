@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from dolfinrod.scene import Load, Support
     from verification.case import Array, Pose
 
-__all__ = ["ALIGNED", "CASES", "arch", "hinged", "rollers", "settled", "threaded"]
+__all__ = ["ALIGNED", "CASES", "FAR", "arch", "hinged", "rollers", "settled", "threaded"]
 
 # A half circle.
 ARC = np.pi
@@ -226,3 +226,5 @@ CASES = (
 )
 # Posed along the axes of space only.
 ALIGNED = (rollers(100.0), hinged(4.0))
+# On a path along which the arc may jump to another branch; a hard case.
+FAR = (settled(0.25),)

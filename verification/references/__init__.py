@@ -3,7 +3,9 @@
 `tabulated.json` holds values from `shared/reference` (shooting, elliptic functions; no finite elements), `peers.json`
 the times published for other people's solvers; `elastica`, `follower` and `helix` closed forms, `heavy` and `cable`
 collocations, for any load and stiffness. `bvp` solves any one rod of uniform curvature with its supports and loads,
-`scenes` reads them off a scene, `retrace` checks the solution, `solved` keeps it in `bvp.json`.
+`scenes` reads them off a scene, `retrace` checks the solution, `solved` keeps it in `bvp.json`. `spectra.json` holds
+critical loads and frequencies (`scalar`), those of `lateral` among them, `robustness.json` what load steps other
+people's solvers take.
 """
 
 from verification.references.cable import Cable, catenary, catenary_tension

@@ -6,7 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from verification.crosscheck import BAND
-from verification.report import sections, times
+from verification.report import sections, times, trials
 from verification.report.diagrams import against_time
 from verification.report.families import families, of_family, panel
 from verification.report.remarks import literal_remark
@@ -27,6 +27,7 @@ TITLES = {
     "limits": "Errors against their limits",
     "step": "One load step",
     "orders": "Orders of convergence",
+    **trials.TITLES,
     "speed": "Milliseconds beside other people's solvers",
     "cases": "The cases",
     "machine": "Machine",
@@ -48,6 +49,7 @@ WORDS = {
     "orders": "The power of the element length with which errors fall, between the two finest meshes that round-off "
     "leaves alone (hidden: there are none), of one case a family: 2k at the tip and k + 1 in L2 for the continuum "
     "model of degree k, 2 for the discrete one.",
+    **trials.WORDS,
     "speed": "Solve is the load stepping alone, by which solvers with a built model are timed; the whole call goes "
     "from scene to result. Compile is what a model spent once on making its forms, or on loading what an earlier run "
     "had made.",
@@ -83,6 +85,7 @@ def contents(report: Report, tests: Path | None) -> dict[str, str]:
         parts["step"] = sections.one_step(report)
     if report.deep:
         parts["orders"] = sections.orders(report) + f"<p>{escape(literal_remark(report.deep))}</p>"
+    parts |= trials.contents(report)
     if report.speeds:
         parts["speed"] = speed(report)
     if report.statements:

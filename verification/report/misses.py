@@ -7,9 +7,12 @@ from typing import Any
 
 from verification.checks import Check
 from verification.crosscheck import BAND, CrossCheck
+from verification.hard import HardRow, Share
 from verification.laws import LawRow
 from verification.onestep import OneStep
-from verification.report.tables import power, scientific
+from verification.report.tables import figure, power, scientific
+from verification.robustness import OneStepLoads, Steps
+from verification.stability import Bracket, EigenStudy
 
 __all__ = ["sentence"]
 
@@ -19,7 +22,7 @@ def sentence(row: Any) -> str:
     """What was found, and what was asked for.
 
     Args:
-        row: A check, cross-check, law or load step that does not hold.
+        row: One that does not hold, of any table.
 
     Returns:
         The sentence without full stop.
@@ -58,3 +61,59 @@ def _(row: CrossCheck) -> str:
 @sentence.register
 def _(row: LawRow) -> str:
     return f"{row.title}: {row.model} violates it by {scientific(row.found)}, at most {scientific(row.bound, 0)}"
+
+
+@sentence.register
+def _(row: EigenStudy) -> str:
+    found = f"{row.title}: {row.model} {row.quantity} {figure(row.found[-1])} instead of {figure(row.reference)}"
+    if row.failure:
+        return f"{found}; {row.failure}"
+    errors = " · ".join(f"{scientific(e)} ({n})" for n, e in zip(row.meshes, row.errors, strict=True))
+    modes = f"{row.multiplicity} mode(s) of {row.expected}"
+    return f"{found}; errors {errors}, order {power(row.order.observed)} of {row.order.theory}, {modes}"
+
+
+@sentence.register
+def _(row: Bracket) -> str:
+    if row.failure:
+        return f"{row.title}: {row.model} has no verdict on both sides of the critical load: {row.failure}"
+    below, above = (verdict(stable) for stable in row.stable)
+    lost = "not counted" if row.directions[1] is None else row.directions[1]
+    return (
+        f"{row.title}: {row.model} {below} below the critical load and {above} above, directions lost {lost}; "
+        f"expected stable, unstable, {row.expected}"
+    )
+
+
+@sentence.register
+def _(row: HardRow) -> str:
+    found = f"{row.title}: {row.model} {row.mesh} ends {scientific(row.error)} off ({row.check}), {verdict(row.stable)}"
+    return f"{found}, without a warning" + (f"; {row.reason}" if row.reason else "")
+
+
+@sentence.register
+def _(row: Share) -> str:
+    return f"Hard cases: {row.converged} of {row.total} continuum rows converge, at least {100 * row.least:.0f} %"
+
+
+@sentence.register
+def _(row: OneStepLoads) -> str:
+    return f"Largest load in one step: {row.model} takes {row.largest:g} EI/L², at least {row.least:g}"
+
+
+@sentence.register
+def _(row: Steps) -> str:
+    if row.failure:
+        return f"{row.title}: {row.model} on {row.mesh} elements did not converge: {row.failure}"
+    asked = [
+        f"at most {most} {what}"
+        for most, what in ((row.most_steps, "step(s)"), (row.most_iterations, "iterations"))
+        if most is not None
+    ]
+    taken = f"{row.steps} load step(s) and {row.iterations} iterations, error {scientific(row.error)}"
+    return f"{row.title}: {row.model} on {row.mesh} elements took {taken}; {' and '.join(asked) or 'error too large'}"
+
+
+def verdict(stable: bool | None) -> str:
+    """In a word."""
+    return "not judged" if stable is None else "stable" if stable else "unstable"

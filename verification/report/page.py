@@ -12,6 +12,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from verification.report import trials
 from verification.report.canvas import markers
 from verification.report.contents import TITLES, contents
 from verification.report.families import of_family
@@ -106,7 +107,7 @@ def heading(report: Report) -> str:
     """The first screen: what was verified, the verdict in numbers, and what was missed."""
     kind = "Quick run: fewer meshes, degrees and repetitions, every limit checked. " if report.quick else ""
     found = of_family(report)
-    scope = f"{len(report.statements)} cases of {len(found)} families" if found else "No case"
+    scope = f"{len(report.statements)} cases of {len(found)} families" if found else "No case studied"
     return f"""<h1>Two rod models, verified</h1>
 <p class="lead">The continuum model (DOLFINx and PETSc SNES) and the paper's discrete 12 × 12 model solve the same
 scenes. Here are their errors against independent references, against time, and against each other.</p>
@@ -131,6 +132,11 @@ def verdicts(report: Report) -> str:
         verdict("limits", errors, "error limits on given meshes hold"),
         verdict("step", report.one_step, "whole loads taken in one step, within the iterations allowed"),
         verdict("orders", orders, "observed orders reach theory"),
+        *(verdict(*outcome) for outcome in trials.outcomes(report)),
+        *(
+            box("hard", "" if s.holds else " bad", s.converged, s.total, "hard cases solved by the continuum model")
+            for s in report.shares
+        ),
         verdict("speed", report.speeds, "speed figures within their limit on this machine, now", slow=True),
     )
     return f'<div class="verdicts">{"".join(boxes)}</div>'
@@ -144,8 +150,13 @@ def verdict(key: str, rows: Sequence[Any], words: str, *, slow: bool = False) ->
     explained = len(rows) - good - missed
     mark = "" if not missed else " slow" if slow else " bad"
     more = f", {explained} explained at their cases" if explained else ""
-    sign = "✗" if missed else "✓"
-    return f'<a class="verdict{mark}" href="#{key}"><b>{sign} {good} of {len(rows)}</b><span>{words}{more}</span></a>'
+    return box(key, mark, good, len(rows), words + more)
+
+
+def box(key: str, mark: str, good: int, total: int, words: str) -> str:
+    """A verdict that leads to its rows; a mark is the class of what is not good."""
+    sign = "✗" if mark else "✓"
+    return f'<a class="verdict{mark}" href="#{key}"><b>{sign} {good} of {total}</b><span>{words}</span></a>'
 
 
 def misses(report: Report) -> str:

@@ -7,7 +7,21 @@ from dataclasses import dataclass
 from html import escape
 from math import isfinite
 
-__all__ = ["Column", "Group", "Link", "Mark", "Row", "Swatch", "link", "count", "ms", "power", "scientific", "table"]
+__all__ = [
+    "Column",
+    "Group",
+    "Link",
+    "Mark",
+    "Row",
+    "Swatch",
+    "link",
+    "count",
+    "figure",
+    "ms",
+    "power",
+    "scientific",
+    "table",
+]
 
 DASH = "–"
 
@@ -160,6 +174,11 @@ def ms(value: float | None) -> str:
     if value is None or not isfinite(value):
         return DASH
     return f"{value:.0f}" if value >= 99.5 else f"{value:.1f}" if value >= 9.95 else f"{value:.2f}"
+
+
+def figure(value: float) -> str:
+    """Nine digits."""
+    return f"{value:.9g}".replace("-", "−") if isfinite(value) else DASH
 
 
 def count(value: int) -> str:
