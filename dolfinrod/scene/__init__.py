@@ -5,7 +5,7 @@ from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.history import Steady, factor, kinks
 from dolfinrod.scene.kinematics import Kinematics, Planar, Spatial, detect, obstacle
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
-from dolfinrod.scene.motion import Dynamic, ImplicitEuler, Midpoint, Static
+from dolfinrod.scene.motion import Dynamic, ImplicitEuler, Midpoint, Static, in_time
 from dolfinrod.scene.rod import Rod
 from dolfinrod.scene.scene import Scene
 from dolfinrod.scene.section import Section
@@ -45,6 +45,7 @@ __all__ = [
     "Velocity",
     "detect",
     "factor",
+    "in_time",
     "kinks",
     "obstacle",
 ]

@@ -8,18 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.drag import resistances
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import VectorLike, assign, positive, vector
 
-__all__ = ["Air", "drag_coefficients"]
+__all__ = ["Air"]
 
 Array = NDArray[np.float64]
-
-# Reynolds numbers at which the formulas for c_n and c_t change.
-SLOW, FAST = 0.1, 100.0
-# Below this one the drag is linear in the velocity, w c(w) staying what it is here.
-CREEPING = 1e-3
-S_0 = 2.0022
 
 
 @dataclass(frozen=True)
@@ -82,71 +77,41 @@ class Air:
         Returns:
             Shape (n, 3) [N/m].
         """
-        across, along = self._per_velocity(v, tangent, diameter)
-        v_t = np.einsum("ni,ni->n", v, tangent)[:, None] * tangent
-        return across[:, None] * (v - v_t) + along[:, None] * v_t
+        v_n, v_t, speed = _split(v, tangent)
+        k_n, k_t, *_ = self.viscosity * resistances(self._reynolds(diameter) * speed)
+        return k_n[:, None] * v_n + k_t[:, None] * v_t
 
     def drag_gradient(self, v: Array, tangent: Array, diameter: Array) -> Array:
-        """∂f/∂v at fixed tangent, shape (n, 3, 3) [N s/m²]."""
-        across, along = self._per_velocity(v, tangent, diameter)
-        v_t = np.einsum("ni,ni->n", v, tangent)[:, None] * tangent
-        v_n = v - v_t
-        speed = np.sqrt(np.einsum("ni,ni->n", v_n, v_n))
-        slopes = self._slopes(speed, diameter)
-        project = np.einsum("ni,nj->nij", tangent, tangent)
-        direction = v_n / np.maximum(speed, np.finfo(float).tiny)[:, None]
-        change = slopes[0][:, None] * v_n + slopes[1][:, None] * v_t
-        moving = across[:, None, None] * (np.eye(3) - project) + along[:, None, None] * project
-        return moving + np.einsum("ni,nj->nij", change, direction)
+        """∂f/∂v at fixed tangent, shape (n, 3, 3) [N s/m²]; arguments as `drag`."""
+        return self.linearized_drag(v, tangent, diameter)[1]
 
-    def _per_velocity(self, v: Array, tangent: Array, diameter: Array) -> tuple[Array, Array]:
-        """ρ_a d |v_n| c_n and ρ_a d |v_n| c_t, which are ρ_a ν w c(w), shape (n,) each [N s/m²]."""
-        v_n = v - np.einsum("ni,ni->n", v, tangent)[:, None] * tangent
-        w = self._reynolds(np.sqrt(np.einsum("ni,ni->n", v_n, v_n)), diameter)
-        c_n, c_t = drag_coefficients(w)
-        return self.viscosity * w * c_n, self.viscosity * w * c_t
+    def linearized_drag(self, v: Array, tangent: Array, diameter: Array) -> tuple[Array, Array, Array]:
+        """Drag with its derivatives, in one pass; arguments as `drag`.
 
-    def _slopes(self, speed: Array, diameter: Array) -> tuple[Array, Array]:
-        """Their derivatives with |v_n|, by a central difference of relative step ε^(1/3); zero where creeping."""
-        w = self._reynolds(speed, diameter)
-        ratio = 1.0 + np.cbrt(np.finfo(float).eps)
-        (n_1, t_1), (n_0, t_0) = drag_coefficients(w * ratio), drag_coefficients(w / ratio)
-        per_speed = self.viscosity / (np.maximum(speed, np.finfo(float).tiny) * (ratio - 1.0 / ratio))
-        moving = w > CREEPING * ratio
-        return tuple(
-            np.where(moving, per_speed * w * (ratio * c_1 - c_0 / ratio), 0.0) for c_1, c_0 in ((n_1, n_0), (t_1, t_0))
-        )
+        ∂f/∂v = k_n (1 − t⊗t) + k_t t⊗t + (k_n′ v_n + k_t′ v_t) ⊗ ∂w/∂v, and for turns of the tangent, δt·t = 0,
+        ∂f/∂t = (k_t − k_n)(t⊗v + (v·t) 1) − (v·t)(k_n′ v_n + k_t′ v_t) ⊗ ∂w/∂v.
 
-    def _reynolds(self, speed: Array, diameter: Array) -> Array:
-        """w = |v_n| d/ν, no less than what makes the drag linear."""
-        return np.maximum(speed * diameter * self.density / self.viscosity, CREEPING)
+        Returns:
+            f, shape (n, 3) [N/m]; ∂f/∂v, shape (n, 3, 3) [N s/m²]; ∂f/∂t, shape (n, 3, 3) [N/m].
+        """
+        v_n, v_t, speed = _split(v, tangent)
+        per_speed = self._reynolds(diameter)
+        k_n, k_t, slope_n, slope_t = (self.viscosity * resistances(per_speed * speed))[:, :, None]
+        direction = per_speed[:, None] * (v_n / np.maximum(speed, np.finfo(float).tiny)[:, None])
+        change = (slope_n * v_n + slope_t * v_t)[:, :, None] * direction[:, None, :]
+        along, one = np.einsum("ni,ni->n", v, tangent)[:, None, None], np.eye(3)
+        k_n, gap = k_n[:, :, None], (k_t - k_n)[:, :, None]
+        by_v = k_n * one + gap * tangent[:, :, None] * tangent[:, None, :] + change
+        by_t = gap * (tangent[:, :, None] * v[:, None, :] + along * one) - along * change
+        return k_n[:, :, 0] * v_n + k_t * v_t, by_v, by_t
+
+    def _reynolds(self, diameter: Array) -> Array:
+        """w per speed across, d/ν, shape (n,) [s/m]."""
+        return diameter * (self.density / self.viscosity)
 
 
-def drag_coefficients(w: Array) -> tuple[Array, Array]:
-    """Drag of a long cylinder across and along it.
-
-    Slender-body theory for w < 0.1, a fit in log w up to 100, boundary layers beyond; w c(w) is constant below 1e-3.
-
-    Args:
-        w: Reynolds number of the velocity across, shape (n,).
-
-    Returns:
-        c_n and c_t, shape (n,) each.
-
-    Source: Marheineke & Wegener 2011, with S(w) = 2.0022 − ln w.
-    """
-    low = np.clip(w, CREEPING, SLOW)
-    S = S_0 - np.log(low)
-    inner = 4.0 * np.pi / low
-    slow_n = inner / S * (1.0 - low**2 * (S**2 - S / 2 + 5 / 16) / (32 * S))
-    slow_t = inner / (2 * S - 1) * (1.0 - low**2 * (2 * S**2 - 2 * S + 1) / (16 * (2 * S - 1)))
-    L = np.log(np.clip(w, SLOW, FAST))
-    mid_n = np.exp(1.6911 - 0.67222 * L + 0.033287 * L**2 + 0.0035015 * L**3)
-    mid_t = np.exp(1.1552 - 0.68479 * L + 0.014884 * L**2 + 0.00074966 * L**3)
-    root = 2.0 / np.sqrt(np.maximum(w, FAST))
-    ranges = [w < SLOW, w <= FAST]
-    creeping = low / np.minimum(np.maximum(w, np.finfo(float).tiny), low)
-    return (
-        np.select(ranges, [slow_n * creeping, mid_n], root + 0.5),
-        np.select(ranges, [slow_t * creeping, mid_t], root),
-    )
+def _split(v: Array, tangent: Array) -> tuple[Array, Array, Array]:
+    """v_n, v_t and |v_n|."""
+    v_t = np.einsum("ni,ni->n", v, tangent)[:, None] * tangent
+    v_n = v - v_t
+    return v_n, v_t, np.sqrt(np.einsum("ni,ni->n", v_n, v_n))

@@ -8,6 +8,7 @@ import numpy as np
 
 from dolfinrod.scene.history import factor, kinks
 from dolfinrod.scene.loads import PointMoment
+from dolfinrod.scene.motion import Dynamic
 from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS, Prescribed
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def free_motions(scene: Scene) -> tuple[str, ...]:
 
 
 def turned_away(scene: Scene) -> tuple[str, ...]:
-    """Free turns of single rods that dead moments do work on in whatever shape.
+    """Free turns of single resting rods that dead moments do work on in whatever shape.
 
     With δθ = ω all along a rod, δW = ω·ΣM must vanish. Only rods that nothing but dead moments acts on are judged:
     forces may find lever arms, and followers turn along.
@@ -136,14 +137,18 @@ def _span(rows: np.ndarray) -> np.ndarray:
 
 
 def advice(scene: Scene) -> str:
-    """What to try where no equilibrium is found, beginning with what nothing holds.
+    """What to try where no equilibrium, or no next state of a motion, is found.
 
     Args:
         scene: The scene that was not solved.
 
     Returns:
-        Sentences without the last full stop.
+        Sentences without the last full stop; those of a Static scene begin with what nothing holds.
     """
+    if isinstance(scene.motion, Dynamic):
+        dt = scene.motion.dt
+        finer = "a smaller Dynamic(tol=…)" if dt is None else f"Dynamic(dt={dt / 2:g})"
+        return f"Try {finer}, more elements, or look at `.result` (what converged) for what grows without bound"
     free = free_motions(scene)
     support = f"Nothing holds the rods completely: {'; '.join(free)}. " if free else ""
     steps = scene.motion.steps

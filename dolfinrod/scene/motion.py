@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from numbers import Real
+from typing import TYPE_CHECKING
 
 from dolfinrod.scene.errors import SceneError, quoted
+from dolfinrod.scene.history import Steady
 from dolfinrod.scene.quantity import assign, count, listed, number, positive
 
-__all__ = ["Dynamic", "ImplicitEuler", "Midpoint", "Motion", "Scheme", "Static"]
+if TYPE_CHECKING:
+    from dolfinrod.scene.scene import Scene
+
+__all__ = ["Dynamic", "ImplicitEuler", "Midpoint", "Motion", "Scheme", "Static", "in_time"]
 
 MOST_STEPS = 1_000_000
 # Beyond these a fraction of the time is no longer told from nothing, or from infinity.
@@ -63,7 +69,8 @@ Scheme = ImplicitEuler | Midpoint
 class Dynamic:
     """Motion in time from 0 to `t_end`, with the inertia of the rods.
 
-    A load without history acts in full from the start; the time of histories is in seconds.
+    The time of histories is in seconds. A load without history acts in full from the start; a prescribed motion without
+    history grows evenly until `t_end`.
 
     Args:
         t_end: Where the time ends [s].
@@ -73,7 +80,8 @@ class Dynamic:
         output: Time between stored states, or their times, ascending [s]; None: every step.
 
     Raises:
-        SceneError: No positive time, both `dt` and `tol`, more than a million steps, or another scheme.
+        SceneError: No positive time, both `dt` and `tol`, more than a million steps or stored states, or what is no
+            scheme.
     """
 
     t_end: float
@@ -87,17 +95,37 @@ class Dynamic:
         dt = None if self.dt is None else positive(self.dt, "Dynamic.dt", "s")
         tol = None if self.tol is None else positive(self.tol, "Dynamic.tol")
         if dt is not None and tol is not None:
-            raise SceneError(f"must be None where dt is given, got {tol}", field="Dynamic.tol")
+            raise SceneError(f"must be left out where dt is given, got {tol}", field="Dynamic.tol")
         if tol is not None and tol >= 1.0:
             raise SceneError(f"must be below 1, got {tol}", field="Dynamic.tol")
-        if dt is not None and t_end / dt > MOST_STEPS:
-            raise SceneError(f"must be at least t_end/{MOST_STEPS} = {t_end / MOST_STEPS} s, got {dt} s", field="Dynamic.dt")
+        if dt is not None:
+            _few_enough(dt, t_end, "Dynamic.dt")
         if not isinstance(self.scheme, ImplicitEuler | Midpoint):
-            raise SceneError(f"must be ImplicitEuler() or Midpoint(), got {quoted(self.scheme)}", field="Dynamic.scheme")
+            raise SceneError(
+                f"must be ImplicitEuler() or Midpoint(), got {quoted(self.scheme)}", field="Dynamic.scheme"
+            )
         assign(self, t_end=t_end, dt=dt, tol=tol, output=_output(self.output, t_end))
 
 
 Motion = Static | Dynamic
+
+
+def in_time(scene: Scene) -> Scene:
+    """The scene with the history of every load written out as its motion takes it.
+
+    In a Dynamic motion a load without history acts in full from the start, `Steady()`; in a Static one it grows
+    proportionally, and so does a prescribed motion in both, which None says already.
+
+    Args:
+        scene: Any scene.
+
+    Returns:
+        The scene to step in time; the same scene where its motion is Static.
+    """
+    if isinstance(scene.motion, Static):
+        return scene
+    loads = [replace(load, history=Steady()) if load.history is None else load for load in scene.loads]
+    return replace(scene, loads=loads)
 
 
 def _duration(value: object, field: str, unit: str) -> float:
@@ -112,11 +140,19 @@ def _output(value: object, t_end: float) -> float | tuple[float, ...] | None:
     """A period or ascending times up to the end."""
     if value is None:
         return None
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        return positive(value, "Dynamic.output", "s")
-    if not isinstance(value, Sequence) or isinstance(value, str):
-        raise SceneError(f"must be a time, times, or None, got {quoted(value)}", field="Dynamic.output")
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return _few_enough(positive(value, "Dynamic.output", "s"), t_end, "Dynamic.output")
     times = tuple(number(t, f"Dynamic.output[{i}]", "s") for i, t in enumerate(listed(value)))
-    if not times or not 0.0 <= times[0] or times[-1] > t_end or any(b <= a for a, b in pairwise(times)):
+    if not times:
+        raise SceneError(f"must be a time or times [s], got {quoted(value)}", field="Dynamic.output")
+    if not 0.0 <= times[0] or times[-1] > t_end or any(b <= a for a, b in pairwise(times)):
         raise SceneError(f"must ascend between 0 and t_end = {t_end} s, got {quoted(value)}", field="Dynamic.output")
     return times
+
+
+def _few_enough(period: float, t_end: float, field: str) -> float:
+    """A time between steps or states of which no more than a million fit into the motion."""
+    if t_end / period > MOST_STEPS:
+        least = f"must be at least t_end/{MOST_STEPS} = {t_end / MOST_STEPS} s, got {period} s"
+        raise SceneError(least, field=field)
+    return period

@@ -169,6 +169,8 @@ class Scene:
             if velocity.rod is not None and velocity.rod >= len(self.rods):
                 below = f"must be below {len(self.rods)}, the number of rods, got {velocity.rod}"
                 raise SceneError(below, field=f"velocities[{i}].rod")
+        if self.air is not None and not moving:
+            raise SceneError("must be left out, since motion is Static: air drags rods that are Dynamic", field="air")
         for k, rod in enumerate(self.rods):
             if moving and rod.section.rhoA is None:
                 needed = "must be given [kg/m], since motion is Dynamic, got None"

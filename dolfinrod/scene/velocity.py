@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.errors import SceneError, quoted
-from dolfinrod.scene.quantity import Vector, VectorLike, assign, rod_index, vector
+from dolfinrod.scene.quantity import VectorLike, assign, rod_index, vector
 
 __all__ = ["Velocity"]
 
