@@ -16,12 +16,16 @@ from typing import TYPE_CHECKING
 from dolfinrod.eigen import Buckling, Modes, RodShapes
 from dolfinrod.result import Formulation, NotConverged, Result, RodHistory, Statistics, StepLog
 from dolfinrod.scene import (
+    Air,
     Clamp,
+    Dynamic,
     FollowerForce,
     FollowerMoment,
     Gravity,
     Guide,
+    ImplicitEuler,
     LineForce,
+    Midpoint,
     Pin,
     Planar,
     PointForce,
@@ -34,6 +38,7 @@ from dolfinrod.scene import (
     Spatial,
     Static,
     Steady,
+    Velocity,
 )
 
 if TYPE_CHECKING:
@@ -42,14 +47,18 @@ if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
 
 __all__ = [
+    "Air",
     "Buckling",
     "Clamp",
+    "Dynamic",
     "FollowerForce",
     "FollowerMoment",
     "Formulation",
     "Gravity",
     "Guide",
+    "ImplicitEuler",
     "LineForce",
+    "Midpoint",
     "Modes",
     "NotConverged",
     "Pin",
@@ -69,6 +78,7 @@ __all__ = [
     "Statistics",
     "Steady",
     "StepLog",
+    "Velocity",
     "buckling",
     "critical",
     "modes",

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from dolfinrod.output import contents, summary, versions, write
 from dolfinrod.progress import ProgressLine
 from dolfinrod.result import NotConverged
-from dolfinrod.scene import Planar, Scene, SceneError, Spatial, toml
+from dolfinrod.scene import Dynamic, Planar, Scene, SceneError, Spatial, toml
 from verification import __main__ as verification
 
 if TYPE_CHECKING:
@@ -179,7 +179,8 @@ def _check_writable(folder: Path | None) -> None:
 
 def _solve(model: str, scene: Scene, options: Mapping[str, Any]) -> tuple[Result, NotConverged | None]:
     """Result of one model, and the failure where the end was not reached."""
-    line = ProgressLine(sys.stderr, name=model) if _is_first_rank() and sys.stderr.isatty() else None
+    unit = "s" if isinstance(scene.motion, Dynamic) else ""
+    line = ProgressLine(sys.stderr, name=model, unit=unit) if _is_first_rank() and sys.stderr.isatty() else None
     solver = _continuum if model == "continuum" else _discrete
     try:
         return solver(scene, options, line), None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import time
 from collections.abc import Callable
+from math import inf
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
@@ -12,23 +13,32 @@ if TYPE_CHECKING:
 
 __all__ = ["ProgressLine"]
 
+# Seconds for which a line stands at least.
+LEGIBLE = 0.1
+
 
 class ProgressLine:
-    """A line rewritten at every accepted step: step, load, iterations, time left; nothing where no terminal is.
+    """A line that tells accepted steps, load or time, iterations, and time left; nothing where no terminal is.
 
-    The time left assumes that the rest of the pseudo-time costs as much as the part behind.
+    The time left assumes that the rest of the way costs as much as the part behind. Steps that follow one another
+    faster than an eye reads are counted but not shown.
 
     Args:
         stream: Where to write, such as `sys.stderr`.
         name: What is being solved.
+        unit: Of the time; empty where it is the pseudo-time of a static solve.
         clock: Seconds since some fixed moment.
     """
 
-    def __init__(self, stream: TextIO, *, name: str, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, stream: TextIO, *, name: str, unit: str = "", clock: Callable[[], float] = time.monotonic
+    ) -> None:
         self._stream = stream
         self._name = name
+        self._unit = f" {unit}".rstrip()
         self._clock = clock
         self._start = clock()
+        self._shown = -inf
         self._steps = 0
         self._iterations = 0
         if stream.isatty():
@@ -39,15 +49,19 @@ class ProgressLine:
 
         Args:
             step: Its log.
-            t_end: Pseudo-time at which the solve ends.
+            t_end: Pseudo-time or time at which the solve ends.
         """
         self._steps += 1
         self._iterations += step.iterations
         if not self._stream.isatty():
             return
-        left = (self._clock() - self._start) * (t_end - step.t) / step.t
+        now = self._clock()
+        if now - self._shown < LEGIBLE:
+            return
+        self._shown = now
+        left = (now - self._start) * (t_end - step.t) / step.t
         self._show(
-            f"{self._name}: step {self._steps}, t = {step.t:.4g} of {t_end:.4g} ({step.t / t_end:.0%}), "
+            f"{self._name}: step {self._steps}, t = {step.t:.4g} of {t_end:.4g}{self._unit} ({step.t / t_end:.0%}), "
             f"{self._iterations} iterations, about {_duration(left)} left"
         )
 

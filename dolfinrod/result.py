@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.scene import Dynamic
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
@@ -29,6 +31,8 @@ class RodHistory:
         kappa: Twist and curvature strain κ − κ₀, section frame, shape (n_t, n_s, 3) [1/m].
         n: Force resultants, section frame, shape (n_t, n_s, 3) [N].
         m: Moment resultants, section frame, shape (n_t, n_s, 3) [N m].
+        v: Velocity of the centreline, shape (n_t, n_s, 3) [m/s]; None in statics.
+        omega: Spin ω of the sections in spatial axes, Ṙ = skew(ω)·R, shape (n_t, n_s, 3) [rad/s]; None in statics.
     """
 
     s: NDArray[np.float64]
@@ -38,6 +42,8 @@ class RodHistory:
     kappa: NDArray[np.float64]
     n: NDArray[np.float64]
     m: NDArray[np.float64]
+    v: NDArray[np.float64] | None = None
+    omega: NDArray[np.float64] | None = None
 
     def at(self, s: float) -> NDArray[np.float64]:
         """Centreline point at arc length `s` at every stored time.
@@ -70,7 +76,7 @@ class StepLog:
     """One accepted step.
 
     Args:
-        t: Pseudo-time (load factor) or time reached.
+        t: Pseudo-time (load factor), or time [s] of a motion.
         iterations: Newton iterations of the accepted attempt.
         cuts: Failed attempts before it.
         residual: Norm of the residual in units of EI/L² and EI/L.
@@ -136,9 +142,14 @@ class Formulation:
 class Result:
     """Everything a solve found, complete on every MPI rank.
 
+    The ledger of a motion in time closes: the changes of `kinetic`, `strain` and `potential` since the start add up to
+    `load work` + `support work` + `drag` + `damping` + `numerical`. These five are works done on the rods since the
+    start, so that what damping takes is negative. A dead load counts in `potential` or in `load work`, never in both;
+    `numerical` is what the time stepping itself adds or takes. Statics keeps `strain` alone.
+
     Args:
         scene: The scene that was solved.
-        t: Stored pseudo-times, the initial state first, shape (n_t,).
+        t: Stored pseudo-times, or times [s] of a motion, the initial state first, shape (n_t,).
         rods: One history per rod.
         converged: False in the record that `NotConverged` carries.
         log: One row per accepted step.
@@ -198,7 +209,7 @@ class Result:
         return load(Path(folder), scene=scene)
 
     def plot(self, path: str | Path | None = None) -> Figure:
-        """Picture of the deformed rods, the resultants along them and the way of their tips, in axes with units.
+        """Picture of the deformed rods, the resultants along them, the way of their tips and, in time, the ledger.
 
         Args:
             path: Where to save it, in the format its ending names; None: nowhere.
@@ -216,14 +227,17 @@ class NotConverged(RuntimeError):  # noqa: N818 (binding public name)
 
     Attributes:
         result: The last converged `Result` (`converged` is False: the end was not reached).
-        t: Pseudo-time of the last converged state.
+        t: Pseudo-time or time of the last converged state.
         step: Size of the step that failed last.
         reason: Why the nonlinear solver stopped, in words.
         advice: What to try.
     """
 
     def __init__(self, *, result: Result, t: float, step: float, reason: str, advice: str) -> None:
-        super().__init__(f"no equilibrium found beyond t = {t:.6g} (last step tried {step:.3g}): {reason}. {advice}")
+        moving = isinstance(result.scene.motion, Dynamic)
+        sought, unit = ("next state", " s") if moving else ("equilibrium", "")
+        tried = f"beyond t = {t:.6g}{unit} (last step tried {step:.3g}{unit})"
+        super().__init__(f"no {sought} found {tried}: {reason}. {advice}")
         self.result = result
         self.t = t
         self.step = step

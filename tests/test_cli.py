@@ -14,9 +14,11 @@ import pytest
 
 import dolfinrod as dr
 from dolfinrod import cli
+from dolfinrod.output import summary
 from dolfinrod.progress import ProgressLine
 from dolfinrod.scene import toml
 from tests.conftest import world
+from tests.output.results import MOVING, flight
 from verification.progress import Progress
 
 CANTILEVER = """
@@ -350,6 +352,50 @@ def test_progress_tells_step_load_iterations_and_time_left(monkeypatch):
     assert first == "continuum: step 1, t = 0.5 of 2 (25%), 6 iterations, about 1:30 min left"
     assert second == "continuum: step 2, t = 1 of 2 (50%), 11 iterations, about 1:30 min left"
     assert last == ""
+
+
+def test_progress_in_time_is_in_seconds_and_no_faster_than_it_can_be_read(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    seconds = iter([0.0, 1.0, 1.01, 1.02, 2.0])
+    terminal = Terminal()
+    line = ProgressLine(terminal, name="continuum", unit="s", clock=lambda: next(seconds))
+    for k in range(1, 5):
+        line(dr.StepLog(t=1e-3 * k, iterations=2, cuts=0, residual=1e-12, energy=1.0), 8e-3)
+    _, _, first, last = terminal.getvalue().split("\r\033[K")
+    assert first == "continuum: step 1, t = 0.001 of 0.008 s (12%), 2 iterations, about 7 s left"
+    assert last == "continuum: step 4, t = 0.004 of 0.008 s (50%), 8 iterations, about 2 s left"
+
+
+def test_summary_of_a_motion_is_in_seconds_and_energies():
+    first, tip, energy, head, *rows = summary("continuum", flight()).splitlines()
+    assert first.startswith(
+        "continuum: converged at t = 2 s; planar, 30 unknowns; time steps: 16, Newton iterations: 48, "
+    )
+    assert "stab" not in "".join([first, *rows])
+    assert tip.startswith("  tip (0.96017028")
+    assert energy.startswith("  energy [J]: kinetic +0.002, strain +0.004, potential +0.006, load work +0.008")
+    assert head.split() == ["step", "t", "[s]", "iterations", "cuts", "strain", "energy", "[J]"]
+    assert rows[-1].split() == ["16", "2", "3", "0", "1"]
+
+
+def test_a_motion_is_run_and_told_in_seconds(dolfinrod, shared_path, monkeypatch):
+    import dolfinrod.continuum as continuum
+
+    seen = []
+    monkeypatch.setattr(continuum, "solve", lambda scene, **_: seen.append(scene) or flight())
+    file = text_file(shared_path / "moving.toml", toml.dumps(MOVING))
+    done = dolfinrod("run", file, "--out", shared_path / "out")
+    assert (done.code, done.err) == (0, "")
+    assert seen == [MOVING]
+    assert "converged at t = 2 s" in done.out
+    info = dolfinrod("info", file).out
+    assert "motion: Dynamic(t_end=2.0, dt=0.125, scheme=Midpoint()" in info
+    assert "velocities[0]: Velocity(v=(0.0, 1.0, 0.0)" in info
+
+
+def test_a_motion_that_stops_says_when():
+    failure = dr.NotConverged(result=flight(), t=0.5, step=0.125, reason="it blew up", advice="Try less")
+    assert str(failure) == "no next state found beyond t = 0.5 s (last step tried 0.125 s): it blew up. Try less"
 
 
 def test_progress_never_wraps_and_is_quiet_in_a_pipe(monkeypatch):

@@ -1,4 +1,4 @@
-"""Pictures of a result: shapes, resultants along the rods, and the way of their tips under growing load."""
+"""Pictures of a result: shapes, resultants along the rods, the way of their tips, and the ledger of a motion."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from mpl_toolkits import mplot3d
 
+from dolfinrod.output.ledger import draw_ledger
 from dolfinrod.output.scale import Scale, scale
 from dolfinrod.output.view import View, view
+from dolfinrod.scene import Dynamic
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -41,7 +43,7 @@ MARGIN = 0.06
 
 
 def plot(result: Result, path: str | Path | None = None) -> Figure:
-    """Deformed over stress-free shape, forces and moments along the rods, displacements of the tips over the load.
+    """Deformed over stress-free shape, resultants along the rods, ways of the tips and energies over load or time.
 
     Args:
         result: What was found.
@@ -50,9 +52,10 @@ def plot(result: Result, path: str | Path | None = None) -> Figure:
     Returns:
         The figure, made without a window.
     """
-    figure = Figure(figsize=(11.0, 7.6), layout="constrained")
+    panels = 4 if len(result.energy) > 1 else 3
+    figure = Figure(figsize=(11.0, 2.2 * panels + 1.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, wspace=0.03, hspace=0.03)
-    grid = figure.add_gridspec(3, 2, width_ratios=(1.25, 1.0))
+    grid = figure.add_gridspec(panels, 2, width_ratios=(1.25, 1.0))
     drawn = _shapes(result)
     seen = view(np.concatenate([points for rod in drawn for points in rod]))
     plane = len(seen.axes) == 2
@@ -61,6 +64,8 @@ def plot(result: Result, path: str | Path | None = None) -> Figure:
     along = [figure.add_subplot(grid[i, 1]) for i in range(2)]
     _draw_resultants(along, result)
     _draw_tips(figure.add_subplot(grid[2, 1]), result)
+    if panels == 4:
+        draw_ledger(figure.add_subplot(grid[3, 1]), result)
     figure.suptitle(_headline(result), fontsize=11)
     if path is not None:
         figure.savefig(path, dpi=130)
@@ -70,12 +75,17 @@ def plot(result: Result, path: str | Path | None = None) -> Figure:
 def _headline(result: Result) -> str:
     """What was solved, and what to look for."""
     first, *later = (f"{t:.4g}" for t in result.t)
+    moving = _moving(result)
+    unit = " s" if moving else ""
     states = f"{len(result.t)} stored states from t = {first} to {later[-1]}" if later else f"the state at t = {first}"
     end = "" if result.converged else ", not converged beyond"
-    said = f"{result.formulation.model} model, {result.formulation.kinematics}: {states}{end}"
-    return (
-        f"{said}\nResultants may jump at supports and point loads only; the flatter the load path, the stiffer the rod."
-    )
+    said = f"{result.formulation.model} model, {result.formulation.kinematics}: {states}{unit}{end}"
+    rule = "the energies change by the works alone" if moving else "the flatter the load path, the stiffer the rod"
+    return f"{said}\nResultants may jump at supports and point loads only; {rule}."
+
+
+def _moving(result: Result) -> bool:
+    return isinstance(result.scene.motion, Dynamic)
 
 
 def _shapes(result: Result) -> list[list[Array]]:
@@ -155,12 +165,13 @@ def _draw_resultants(panels: list[Axes], result: Result) -> None:
                     along.factor * history.s, values[:, component], color=color, linestyle=STYLES[k % len(STYLES)]
                 )
         axes.set(xlabel=f"arc length s [{along.unit}]", ylabel=f"{words[name][0].lower()} {name} [{unit.unit}]")
-        axes.set_title(f"{words[name][0]} along the rods in the section frame, t = {result.t[-1]:.4g}")
+        at = f"t = {result.t[-1]:.4g}{' s' * _moving(result)}"
+        axes.set_title(f"{words[name][0]} along the rods in the section frame, {at}")
         _finish(axes, sizes[name], parts[name], len(result.rods))
 
 
 def _draw_tips(axes: Axes, result: Result) -> None:
-    """Displacement of the end of each rod against the pseudo-time, each dot an equilibrium."""
+    """Displacement of the end of each rod against time, or against pseudo-time with a dot at each equilibrium."""
     moves = [h.r[:, -1] - rod.centerline(rod.length) for rod, h in zip(result.scene.rods, result.rods, strict=True)]
     size = float(np.abs(moves).max())
     size = size if size > ROUND_OFF * max(rod.length for rod in result.scene.rods) else 0.0
@@ -169,11 +180,12 @@ def _draw_tips(axes: Axes, result: Result) -> None:
         for component, color in enumerate(COMPONENTS):
             values = move[:, component] * (unit.factor if size else 0.0)
             style = STYLES[k % len(STYLES)]
-            axes.plot(result.t, values, color=color, linestyle=style, marker="o", markersize=3.5)
+            marker = None if _moving(result) else "o"
+            axes.plot(result.t, values, color=color, linestyle=style, marker=marker, markersize=3.5)
     axes.set(
-        xlabel="pseudo-time t [1]",
+        xlabel="time t [s]" if _moving(result) else "pseudo-time t [1]",
         ylabel=f"displacement u [{unit.unit}]",
-        title="Load path of the tips, each dot an equilibrium",
+        title="Way of the tips" if _moving(result) else "Load path of the tips, each dot an equilibrium",
     )
     _finish(axes, size, ("$u_x$", "$u_y$", "$u_z$"), len(moves))
 

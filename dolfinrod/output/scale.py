@@ -28,7 +28,7 @@ def scale(largest: float, unit: str) -> Scale:
 
     Args:
         largest: Largest magnitude to draw, in SI.
-        unit: SI unit: m, N or N m. Lengths are not given in kilometres.
+        unit: SI unit: m, N, N m or J. Lengths are not given in kilometres.
 
     Returns:
         The unit to draw in; the plain one where all is zero.

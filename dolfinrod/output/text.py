@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from dolfinrod.scene import Planar, detect
+from dolfinrod.scene import Dynamic, Planar, detect
 
 if TYPE_CHECKING:
     from dolfinrod.result import Result, StepLog
@@ -13,34 +13,44 @@ if TYPE_CHECKING:
 
 __all__ = ["contents", "summary"]
 
-# Rows of a table of load steps beyond which its middle is left out.
+# Rows of a table of steps beyond which its middle is left out.
 MOST_ROWS = 20
 
 
 def summary(model: str, result: Result) -> str:
-    """Outcome, cost, stability and tip of a solve, and its load steps where there are several.
+    """Outcome, cost and tip of a solve, its steps where there are several; stability at rest, energies in motion.
 
     Args:
         model: Who solved it.
         result: What was found.
     """
     cost, end = result.statistics, "converged at" if result.converged else "not converged beyond"
-    state = f"; {_stability(result.log[-1])}" if result.log else ""
+    moving = isinstance(result.scene.motion, Dynamic)
+    state = f"; {_stability(result.log[-1])}" if result.log and not moving else ""
     lines = [
-        f"{model}: {end} t = {result.t[-1]:.6g}; {result.formulation.kinematics}, {cost.dofs} unknowns; "
-        f"load steps: {cost.load_steps}, Newton iterations: {cost.newton_iterations}, "
-        f"{1e3 * cost.seconds_solve:.3g} ms{state}",
+        f"{model}: {end} t = {result.t[-1]:.6g}{' s' * moving}; {result.formulation.kinematics}, "
+        f"{cost.dofs} unknowns; {'time' if moving else 'load'} steps: {cost.load_steps}, "
+        f"Newton iterations: {cost.newton_iterations}, {1e3 * cost.seconds_solve:.3g} ms{state}",
         f"  tip {_vector(result.tip, digits=10)} m",
-        *(_steps(result.log) if len(result.log) > 1 else ()),
+        *(_ledger(result) if moving else ()),
+        *(_steps(result.log, moving) if len(result.log) > 1 else ()),
     ]
     return "\n".join(lines)
 
 
-def _steps(log: tuple[StepLog, ...]) -> list[str]:
-    """A table of load steps, the middle of a long one left to `result.json`."""
-    rows = [f"  {'step':>6}{'t':>12}{'iterations':>12}{'cuts':>6}  state"]
+def _ledger(result: Result) -> list[str]:
+    """How much each energy has changed and each work has done."""
+    changes = ", ".join(f"{name} {values[-1] - values[0]:+.6g}" for name, values in result.energy.items())
+    return [f"  energy [J]: {changes}"] if changes else []
+
+
+def _steps(log: tuple[StepLog, ...], moving: bool) -> list[str]:
+    """A table of steps, the middle of a long one left to `result.json`."""
+    times, last = ("t [s]", "strain energy [J]") if moving else ("t", "state")
+    rows = [f"  {'step':>6}{times:>12}{'iterations':>12}{'cuts':>6}  {last}"]
     rows += [
-        f"  {k:6d}{row.t:12.6g}{row.iterations:12d}{row.cuts:6d}  {_stability(row)}" for k, row in enumerate(log, 1)
+        f"  {k:6d}{row.t:12.6g}{row.iterations:12d}{row.cuts:6d}  {f'{row.energy:.6g}' if moving else _stability(row)}"
+        for k, row in enumerate(log, 1)
     ]
     if len(log) <= MOST_ROWS:
         return rows
@@ -59,7 +69,7 @@ def _stability(row: StepLog) -> str:
 
 
 def contents(scene: Scene) -> list[str]:
-    """Rods, supports, loads, motion and detected kinematics of a scene.
+    """Rods, supports, loads, air, motion, velocities at the start and detected kinematics of a scene.
 
     Args:
         scene: Any scene.
@@ -73,7 +83,9 @@ def contents(scene: Scene) -> list[str]:
         *(line for k, rod in enumerate(scene.rods) for line in _rod(k, rod)),
         *(f"supports[{i}]: {support}" for i, support in enumerate(scene.supports)),
         *(f"loads[{i}]: {load}" for i, load in enumerate(scene.loads)),
+        *([f"air: {scene.air}"] if scene.air is not None else ()),
         f"motion: {scene.motion}",
+        *(f"velocities[{i}]: {velocity}" for i, velocity in enumerate(scene.velocities)),
         f"kinematics: {type(found).__name__.lower()}{plane}",
     ]
 

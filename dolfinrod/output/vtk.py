@@ -25,8 +25,8 @@ def write_series(result: Result, folder: Path) -> None:
     """Write `rods.pvd` and `rods-0000.vtu`, `rods-0001.vtu`, …: all rods at one stored time in each.
 
     Point data: arc length `s`, `displacement` from the stress-free shape, section frame `d1`, `d2`, `d3`, strains
-    `gamma`, `kappa`, resultants `n`, `m` in the section frame, `force` and `moment` in space, all in SI units. Cell
-    data: `rod`, counted from 0.
+    `gamma`, `kappa`, resultants `n`, `m` in the section frame, `force` and `moment` in space, of a motion `v` and
+    `omega` in space too, all in SI units. Cell data: `rod`, counted from 0.
 
     Args:
         result: What was found.
@@ -58,12 +58,13 @@ def _at_nodes(result: Result, i: int) -> dict[str, Array]:
         part = {"s": rod.s} | {f"d{k + 1}": R[:, :, k] for k in range(3)}
         part |= {name: getattr(rod, name)[i] for name in ("gamma", "kappa", "n", "m")}
         part |= {"force": np.einsum("sij,sj->si", R, rod.n[i]), "moment": np.einsum("sij,sj->si", R, rod.m[i])}
+        part |= {name: values[i] for name in ("v", "omega") if (values := getattr(rod, name)) is not None}
         parts.append(part)
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
 def _write_collection(path: Path, t: Array, names: list[str]) -> None:
-    """The list of files with their pseudo-times."""
+    """The list of files with their pseudo-times or times."""
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
     collection = ElementTree.SubElement(root, "Collection")
     for time, name in zip(t, names, strict=True):

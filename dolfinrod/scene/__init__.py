@@ -1,26 +1,32 @@
 """The problem as plain data: rods, what holds them, what acts on them; NumPy only."""
 
+from dolfinrod.scene.air import Air
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.history import Steady, factor, kinks
 from dolfinrod.scene.kinematics import Kinematics, Planar, Spatial, detect, obstacle
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
-from dolfinrod.scene.motion import Static
+from dolfinrod.scene.motion import Dynamic, ImplicitEuler, Midpoint, Static, in_time
 from dolfinrod.scene.rod import Rod
 from dolfinrod.scene.scene import Scene
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import UniformCurvature
 from dolfinrod.scene.spline import Spline
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
+from dolfinrod.scene.velocity import Velocity
 
 __all__ = [
+    "Air",
     "Clamp",
+    "Dynamic",
     "FollowerForce",
     "FollowerMoment",
     "Gravity",
     "Guide",
+    "ImplicitEuler",
     "Kinematics",
     "LineForce",
     "Load",
+    "Midpoint",
     "Pin",
     "Planar",
     "PointForce",
@@ -36,8 +42,10 @@ __all__ = [
     "Steady",
     "Support",
     "UniformCurvature",
+    "Velocity",
     "detect",
     "factor",
+    "in_time",
     "kinks",
     "obstacle",
 ]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from dolfinrod.scene.mechanism import free_motions
+from dolfinrod.scene.motion import Dynamic
 
 if TYPE_CHECKING:
     from dolfinrod.scene.scene import Scene
@@ -47,6 +48,10 @@ def advice(scene: Scene, found: Findings) -> str:
     Returns:
         Sentences without the last full stop.
     """
+    if isinstance(scene.motion, Dynamic):
+        dt = scene.motion.dt
+        finer = "a smaller Dynamic(tol=…)" if dt is None else f"Dynamic(dt={dt / 2:g})"
+        return f"Try {finer}, more elements, or look at `.result` (what converged) for what grows without bound"
     free = free_motions(scene)
     if free and (found.t == 0.0 or found.pushed):
         return f"Likely a mechanism. Nothing holds the rods completely: {'; '.join(free)}. Try more supports"

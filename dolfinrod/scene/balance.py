@@ -22,7 +22,7 @@ BALANCED = 1e-9
 
 
 def pushed_away(scene: Scene) -> tuple[str, ...]:
-    """Free translations of single rods that the loads do work on in whatever shape.
+    """Free translations of single resting rods that the loads do work on in whatever shape.
 
     With δr = e all along a rod, δW = e·ΣF must vanish. ΣF, the sum of the dead forces, knows no shape. Follower forces
     R·F turn with the rod but keep their magnitudes, so that they balance no more than the sum of these. Turns are left

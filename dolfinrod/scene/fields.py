@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from difflib import get_close_matches
-from inspect import Parameter, signature
 from typing import Any, Protocol, TypeGuard
 
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.history import Steady
+from dolfinrod.scene.motion import ImplicitEuler, Midpoint
+from dolfinrod.scene.tables import meant
 from dolfinrod.units import UnitError, has_unit, si
 
-__all__ = ["At", "Field", "Growth", "Kind", "Modulus", "Plain", "Quantity", "Specific", "meant", "refuse_unknown"]
+__all__ = ["At", "Field", "Flow", "Growth", "Modulus", "Plain", "Quantity", "Scheme", "Specific"]
 
-# No name of a field is longer.
-MOST_CHARACTERS = 100
+SCHEMES: dict[str, type[ImplicitEuler | Midpoint]] = {"implicit_euler": ImplicitEuler, "midpoint": Midpoint}
 
 
 class Field(Protocol):
@@ -140,71 +139,39 @@ class Growth:
 
 
 @dataclass(frozen=True)
-class Kind:
-    """A table of a scene file and what it makes.
+class Scheme:
+    """How time is stepped: "implicit_euler" or "midpoint"."""
 
-    Args:
-        make: Constructor; its parameters without default are the fields that must be there.
-        fields: Name of each field and how it is read.
-    """
+    def read(self, value: Any, path: str) -> ImplicitEuler | Midpoint:
+        """The scheme of that name."""
+        if not isinstance(value, str) or value not in SCHEMES:
+            close = meant(value, SCHEMES) if isinstance(value, str) else ""
+            one_of = " or ".join(f'"{name}"' for name in SCHEMES)
+            raise SceneError(f"must be {one_of}, got {value!r}{close}", field=path)
+        return SCHEMES[value]()
 
-    make: Callable[..., Any]
-    fields: Mapping[str, Field]
-
-    def read(self, table: Any, path: str, **known: Any) -> Any:
-        """The record a table describes.
-
-        Args:
-            table: What TOML holds.
-            path: Where it stands.
-            **known: Arguments of the constructor that stand elsewhere.
-
-        Returns:
-            What `make` made.
-
-        Raises:
-            SceneError: An unknown or missing field, or a value that cannot be.
-        """
-        return self.made(self.values(table, path, known), path)
-
-    def values(self, table: Any, path: str, known: Mapping[str, Any]) -> dict[str, Any]:
-        """Arguments for `make`, all there and each in SI."""
-        if not isinstance(table, dict):
-            raise SceneError(f"must be a table, got {table!r}", field=path)
-        refuse_unknown(table, self.fields, path)
-        parameters = signature(self.make).parameters.values()
-        for name in (p.name for p in parameters if p.default is Parameter.empty):
-            if name not in table and name not in known:
-                raise SceneError("is missing", field=f"{path}.{name}")
-        return {**known, **{name: self.fields[name].read(value, f"{path}.{name}") for name, value in table.items()}}
-
-    def made(self, values: Mapping[str, Any], path: str) -> Any:
-        """What `make` makes of its arguments; its complaints name the path."""
-        try:
-            return self.make(**values)
-        except SceneError as error:
-            raise error.within(path) from None
-
-    def write(self, values: Mapping[str, Any], path: str) -> dict[str, Any]:
-        """The table of these values; what is None is left out."""
-        told = {name: value for name, value in values.items() if value is not None}
-        return {name: self.fields[name].write(value, f"{path}.{name}") for name, value in told.items()}
+    def write(self, value: Any, path: str) -> str:
+        """Its name."""
+        (name,) = (name for name, kind in SCHEMES.items() if type(value) is kind)
+        return name
 
 
-def refuse_unknown(table: Mapping[str, Any], known: Collection[str], path: str) -> None:
-    """Every key of a table is known."""
-    for name in table:
-        if name not in known:
-            place = f"{path}.{name}" if name else f'{path}.""'
-            message = f"is unknown; known are {', '.join(known)}{meant(name, known)}"
-            raise SceneError(message, field=place.lstrip("."))
+SPEED = Quantity("m/s")
 
 
-def meant(word: str, known: Iterable[str]) -> str:
-    """A question that names the known word closest to one that is not; empty where none is close."""
-    spelt = {name.lower(): name for name in known}
-    close = get_close_matches(word[:MOST_CHARACTERS].lower(), spelt, n=1)
-    return f"; did you mean {spelt[close[0]]}?" if close else ""
+@dataclass(frozen=True)
+class Flow:
+    """A velocity that is the same everywhere; one that is a function of place cannot stand in a file."""
+
+    def read(self, value: Any, path: str) -> Any:
+        """Its components in metres per second."""
+        return SPEED.read(value, path)
+
+    def write(self, value: Any, path: str) -> Any:
+        """Its components."""
+        if callable(value):
+            raise SceneError(f"must be a vector to be written to a file, got the function {value!r}", field=path)
+        return SPEED.write(value, path)
 
 
 def _is_number(value: Any) -> TypeGuard[float]:

@@ -1,4 +1,4 @@
-"""How a load grows over the pseudo-time of a static solve."""
+"""How a load grows: over the pseudo-time of a static solve, over the seconds of a motion in time."""
 
 from __future__ import annotations
 
@@ -76,11 +76,12 @@ def factor(history: History, t: float, t_end: float) -> float:
     """What a load is multiplied with at time `t`.
 
     None: t/t_end (proportional). Steady: 1. Table: linear between its rows, constant beyond them. Function: f(t).
+    In a Dynamic motion a load without history is steady: `dolfinrod.scene.in_time` writes that out.
 
     Args:
         history: How the load grows.
-        t: Pseudo-time.
-        t_end: Where the pseudo-time ends.
+        t: Pseudo-time, or time [s] where the scene moves.
+        t_end: Where it ends.
 
     Returns:
         The factor.

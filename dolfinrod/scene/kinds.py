@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from dolfinrod.scene.fields import At, Field, Growth, Kind, Modulus, Plain, Quantity
+from dolfinrod.scene.air import Air
+from dolfinrod.scene.fields import At, Field, Flow, Growth, Modulus, Plain, Quantity, Scheme
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, PointForce, PointMoment
-from dolfinrod.scene.motion import Static
+from dolfinrod.scene.motion import Dynamic, Static
 from dolfinrod.scene.rod import Rod
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed
+from dolfinrod.scene.tables import Kind
+from dolfinrod.scene.velocity import Velocity
 
-__all__ = ["LOADS", "MOTIONS", "RODS", "SECTION", "SECTIONS", "SUPPORTS"]
+__all__ = ["AIR", "LOADS", "MOTIONS", "RODS", "SECTION", "SECTIONS", "SUPPORTS", "VELOCITIES"]
 
-METRE, NEWTON, NEWTON_METRE = Quantity("m"), Quantity("N"), Quantity("N*m")
+METRE, SECOND = Quantity("m"), Quantity("s")
+NEWTON, NEWTON_METRE = Quantity("N"), Quantity("N*m")
 MATERIAL: dict[str, Field] = {
     "E": Modulus(),
     "G": Modulus(),
     "density": Quantity("kg/m**3"),
     "shear_factor": Plain(),
     "rigid": Plain(),
+    "damping": SECOND,
 }
 SECTION = Kind(
     Section,
@@ -30,12 +35,13 @@ SECTION = Kind(
         "rhoI": Quantity("kg*m"),
         "rigid": Plain(),
         "radius": METRE,
+        "damping": SECOND,
     },
 )
 SECTIONS = {
     "circle": Kind(Section.circle, {"diameter": METRE, **MATERIAL}),
     "rectangle": Kind(Section.rectangle, {"width": METRE, "height": METRE, "torsion": Plain(), **MATERIAL}),
-    "ramie": Kind(Section.ramie, {"rigid": Plain()}),
+    "ramie": Kind(Section.ramie, {"rigid": Plain(), "damping": SECOND}),
 }
 FRAMED: dict[str, Field] = {"start": METRE, "direction": Plain(), "d2": Plain(), "pretwist": Quantity("rad/m")}
 RODS = {
@@ -78,4 +84,9 @@ LOADS = {
     "line_force": Kind(LineForce, {"force": Quantity("N/m"), "between": METRE, "rod": Plain(), "history": Growth()}),
     "gravity": Kind(Gravity, {"g": Quantity("m/s**2"), "history": Growth()}),
 }
-MOTIONS = {"static": Kind(Static, {"steps": Plain(), "t_end": Plain()})}
+MOTIONS = {
+    "static": Kind(Static, {"steps": Plain(), "t_end": Plain()}),
+    "dynamic": Kind(Dynamic, {"t_end": SECOND, "dt": SECOND, "scheme": Scheme(), "tol": Plain(), "output": SECOND}),
+}
+AIR = Kind(Air, {"field": Flow(), "density": Quantity("kg/m**3"), "viscosity": Quantity("Pa*s")})
+VELOCITIES = Kind(Velocity, {"v": Flow(), "omega": Quantity("rad/s"), "about": METRE, "rod": Plain()})

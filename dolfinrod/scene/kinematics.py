@@ -16,9 +16,12 @@ if TYPE_CHECKING:
     from dolfinrod.scene.rod import Rod
     from dolfinrod.scene.scene import Scene
     from dolfinrod.scene.section import Section
+    from dolfinrod.scene.velocity import Velocity
 
 __all__ = ["Kinematics", "Planar", "Spatial", "detect", "obstacle"]
 
+# Places, as parts of a length, where a rod is asked how it moves: so unevenly that no wave has all its nodes there.
+PLACES = (1.0 - np.cos(np.linspace(0.0, np.pi, 65))) / 2.0
 # An angle out of the plane that is only round-off of the input [rad].
 TOLERANCE = 1e-10
 DEAD = PointForce | LineForce | Gravity
@@ -56,7 +59,8 @@ def detect(scene: Scene) -> Planar | Spatial:
     """The least kinematics that holds the whole scene.
 
     The normal of a plane must be a principal axis of every section; so d3 and then d2 of the first rod are tried, and
-    where its section is the same in all directions, whatever plane its axis spans with a load or a prescribed motion.
+    where its section is the same in all directions, whatever plane its axis spans with a load, a prescribed motion, a
+    velocity at the start or the air. Air whose flow is a function is taken to lead out of every plane.
 
     Args:
         scene: Any scene.
@@ -93,6 +97,12 @@ def obstacle(scene: Scene, plane: Planar) -> str | None:
     for i, support in enumerate(scene.supports):
         if not _support_fits(support, N):
             return f"supports[{i}] couples motion in the plane with motion out of it"
+    for i, velocity in enumerate(scene.velocities):
+        v = _moved(scene, velocity)
+        if not _parallel(velocity.omega, N) or np.abs(v @ N).max() > TOLERANCE * np.abs(v).max():
+            return f"velocities[{i}] leads out of the plane"
+    if scene.air is not None and (callable(scene.air.field) or not _normal_to(scene.air.field, N)):
+        return "air may flow out of the plane"
     return None
 
 
@@ -124,9 +134,18 @@ def _spanned(scene: Scene, d1: np.ndarray) -> list[np.ndarray]:
     moments = [np.asarray(load.moment) for load in scene.loads if isinstance(load, PointMoment)]
     turns = [np.asarray(s.rotation) for s in prescribed if s.rotation is not None]
     forces = [load.g if isinstance(load, Gravity) else load.force for load in scene.loads if isinstance(load, DEAD)]
-    moves = [[u or 0.0 for u in s.displacement] for s in prescribed if s.displacement is not None]
-    normals = [*(np.cross(d1, v) for v in [*forces, *moves]), *moments, *turns]
+    moves: list[VectorLike] = [[u or 0.0 for u in s.displacement] for s in prescribed if s.displacement is not None]
+    moves += [max(_moved(scene, v), key=lambda v: float(np.linalg.norm(np.cross(d1, v)))) for v in scene.velocities]
+    moves += [] if scene.air is None or callable(scene.air.field) else [scene.air.field]
+    spins = [np.asarray(velocity.omega) for velocity in scene.velocities]
+    normals = [*(np.cross(d1, v) for v in [*forces, *moves]), *moments, *turns, *spins]
     return [v / np.linalg.norm(v) for v in normals if np.linalg.norm(v) > 0.0]
+
+
+def _moved(scene: Scene, velocity: Velocity) -> np.ndarray:
+    """Velocities at the start that it gives along the rods, shape (n, 3) [m/s]."""
+    rods = scene.rods if velocity.rod is None else (scene.rods[velocity.rod],)
+    return np.concatenate([velocity.at(rod.centerline(rod.length * PLACES)) for rod in rods])
 
 
 def _load_fits(scene: Scene, load: Load, N: np.ndarray) -> bool:

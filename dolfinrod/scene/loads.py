@@ -1,4 +1,4 @@
-"""What acts on a rod."""
+"""What acts on a rod; histories are over pseudo-time, in a Dynamic motion over seconds."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class PointForce:
         force: F in spatial axes [N].
         at: "start", "end" or arc length [m].
         rod: Number of the rod; None: every rod.
-        history: How it grows; None: proportional.
+        history: How it grows; None: proportional, in a Dynamic motion steady.
     """
 
     force: VectorLike
@@ -39,7 +39,7 @@ class PointMoment:
         moment: M in spatial axes [N m].
         at: "start", "end" or arc length [m].
         rod: Number of the rod; None: every rod.
-        history: How it grows; None: proportional.
+        history: How it grows; None: proportional, in a Dynamic motion steady.
     """
 
     moment: VectorLike
@@ -59,7 +59,7 @@ class FollowerForce:
         force: F along d1, d2, d3 [N].
         at: "start", "end" or arc length [m].
         rod: Number of the rod; None: every rod.
-        history: How it grows; None: proportional.
+        history: How it grows; None: proportional, in a Dynamic motion steady.
     """
 
     force: VectorLike
@@ -79,7 +79,7 @@ class FollowerMoment:
         moment: M about d1, d2, d3 [N m].
         at: "start", "end" or arc length [m].
         rod: Number of the rod; None: every rod.
-        history: How it grows; None: proportional.
+        history: How it grows; None: proportional, in a Dynamic motion steady.
     """
 
     moment: VectorLike
@@ -99,7 +99,7 @@ class LineForce:
         force: f in spatial axes [N/m].
         between: Arc lengths (s_a, s_b) between which it acts [m]; None: the whole rod.
         rod: Number of the rod; None: every rod.
-        history: How it grows; None: proportional.
+        history: How it grows; None: proportional, in a Dynamic motion steady.
 
     Raises:
         SceneError: s_a is not below s_b.
@@ -126,7 +126,7 @@ class Gravity:
 
     Args:
         g: Acceleration in spatial axes [m/s²].
-        history: How it grows; None: proportional.
+        history: How it grows; None: proportional, in a Dynamic motion steady.
     """
 
     g: VectorLike

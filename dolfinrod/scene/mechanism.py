@@ -45,7 +45,7 @@ def free_motions(scene: Scene) -> tuple[str, ...]:
 
 
 def turned_away(scene: Scene) -> tuple[str, ...]:
-    """Free turns of single rods that dead moments do work on in whatever shape.
+    """Free turns of single resting rods that dead moments do work on in whatever shape.
 
     With δθ = ω all along a rod, δW = ω·ΣM must vanish. Only rods that nothing but dead moments acts on are judged:
     forces may find lever arms, and followers turn along.

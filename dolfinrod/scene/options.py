@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from dolfinrod.scene.errors import SceneError, quoted
-from dolfinrod.scene.fields import refuse_unknown
 from dolfinrod.scene.quantity import count
+from dolfinrod.scene.tables import refuse_unknown
 
 __all__ = ["element_counts", "options"]
 

@@ -7,12 +7,14 @@ from dataclasses import dataclass, field
 from itertools import groupby
 from operator import itemgetter
 
+from dolfinrod.scene.air import Air
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
-from dolfinrod.scene.motion import Static
+from dolfinrod.scene.motion import Dynamic, Motion, Static
 from dolfinrod.scene.quantity import Place, assign
 from dolfinrod.scene.rod import Rod
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
+from dolfinrod.scene.velocity import Velocity
 
 __all__ = ["MOST_PARTS", "Scene"]
 
@@ -34,8 +36,9 @@ class Scene:
         supports: What holds them.
         loads: What acts on them.
         contacts: None in this version.
-        air: None in this version.
+        air: What flows past the rods; None: nothing.
         motion: How the scene moves on.
+        velocities: How the rods move at the start of a Dynamic motion.
 
     Raises:
         SceneError: Parts that do not fit together, such as a load beyond the end of its rod.
@@ -45,11 +48,12 @@ class Scene:
     supports: Sequence[Support] = ()
     loads: Sequence[Load] = ()
     contacts: Sequence[object] = ()
-    air: object = None
-    motion: Static = field(default_factory=Static)
+    air: Air | None = None
+    motion: Motion = field(default_factory=Static)
+    velocities: Sequence[Velocity] = ()
 
     def __post_init__(self) -> None:
-        for name in ("rods", "supports", "loads", "contacts"):
+        for name in ("rods", "supports", "loads", "contacts", "velocities"):
             value = getattr(self, name)
             if not isinstance(value, (tuple, list)):
                 raise SceneError(f"must be a tuple, got {quoted(value)}", field=name)
@@ -62,6 +66,7 @@ class Scene:
             for i, part in enumerate(parts):
                 self._check_places(part, f"{name}[{i}]")
         self._check_density()
+        self._check_motion()
         self._check_supports()
 
     def location(self, at: Place, rod: int | None) -> list[tuple[int, float]]:
@@ -101,7 +106,12 @@ class Scene:
 
     def _check_kinds(self) -> None:
         """Every entry is of the kind its place asks for."""
-        kinds = {"rods": (Rod,), "supports": SUPPORTS, "loads": (*POINT_LOADS, LineForce, Gravity)}
+        kinds = {
+            "rods": (Rod,),
+            "supports": SUPPORTS,
+            "loads": (*POINT_LOADS, LineForce, Gravity),
+            "velocities": (Velocity,),
+        }
         for name, allowed in kinds.items():
             for i, part in enumerate(getattr(self, name)):
                 if not isinstance(part, allowed):
@@ -113,10 +123,10 @@ class Scene:
             raise SceneError(
                 f"must be empty, this version knows no contact, got {quoted(self.contacts)}", field="contacts"
             )
-        if self.air is not None:
-            raise SceneError(f"must be None, this version knows no air, got {quoted(self.air)}", field="air")
-        if not isinstance(self.motion, Static):
-            raise SceneError(f"must be Static, got {quoted(self.motion)}", field="motion")
+        if not (self.air is None or isinstance(self.air, Air)):
+            raise SceneError(f"must be Air or None, got {quoted(self.air)}", field="air")
+        if not isinstance(self.motion, Static | Dynamic):
+            raise SceneError(f"must be Static or Dynamic, got {quoted(self.motion)}", field="motion")
 
     def _check_places(self, part: Support | Load, path: str) -> None:
         """The rod exists and the place lies on it."""
@@ -149,6 +159,25 @@ class Scene:
             if weights and rod.section.rhoA is None:
                 needed = f"must be given [kg/m], since loads[{weights[0]}] is Gravity, got None"
                 raise SceneError(needed, field=f"rods[{k}].section.rhoA")
+
+    def _check_motion(self) -> None:
+        """What moves has a mass, what air drags a diameter, and what starts moving belongs to a motion in time."""
+        moving = isinstance(self.motion, Dynamic)
+        for i, velocity in enumerate(self.velocities):
+            if not moving:
+                raise SceneError("must be left out, since motion is Static", field=f"velocities[{i}]")
+            if velocity.rod is not None and velocity.rod >= len(self.rods):
+                below = f"must be below {len(self.rods)}, the number of rods, got {velocity.rod}"
+                raise SceneError(below, field=f"velocities[{i}].rod")
+        if self.air is not None and not moving:
+            raise SceneError("must be left out, since motion is Static: air drags rods that are Dynamic", field="air")
+        for k, rod in enumerate(self.rods):
+            if moving and rod.section.rhoA is None:
+                needed = "must be given [kg/m], since motion is Dynamic, got None"
+                raise SceneError(needed, field=f"rods[{k}].section.rhoA")
+            if self.air is not None and rod.section.radius is None:
+                needed = "must be given [m], since air drags the rod, got None"
+                raise SceneError(needed, field=f"rods[{k}].section.radius")
 
     def _check_supports(self) -> None:
         """No component is held twice at one place; prescribed motions compose."""

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import inf, pi, tanh
+from math import inf, pi
 
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import Vector, assign, entries, names, nonnegative, positive, require, vector
+from dolfinrod.scene.torsion import st_venant_constant
 from dolfinrod.units import CN_PER_TEX
 
 __all__ = ["Section"]
@@ -31,6 +32,7 @@ class Section:
         rhoI: Rotary inertia per length about d1 (polar), d2 and d3 [kg m].
         rigid: Strains that are exactly zero, out of "shear" and "extension".
         radius: Radius of a circular section, where its surface matters [m].
+        damping: Kelvin-Voigt retardation time τ of a moving rod, n = diag(EA, …)(γ + τ γ̇) and so for moments [s].
 
     Raises:
         SceneError: A stiffness that is missing, a stiffness, mass or radius that is not finite and positive, or an
@@ -45,6 +47,7 @@ class Section:
     rhoI: Vector | None
     rigid: frozenset[str]
     radius: float | None
+    damping: float
 
     def __init__(
         self,
@@ -57,6 +60,7 @@ class Section:
         rhoI: Vector | None = None,
         rigid: Iterable[str] = frozenset(),
         radius: float | None = None,
+        damping: float = 0.0,
     ) -> None:
         strains = names(rigid, "Section.rigid", ("shear", "extension"))
         elastic = {"EA": inf if "extension" in strains else EA, "GA": inf if "shear" in strains else GA}
@@ -71,6 +75,7 @@ class Section:
             rhoI=None if rhoI is None else _inertia(rhoI),
             rigid=strains,
             radius=None if radius is None else positive(radius, "Section.radius", "m"),
+            damping=nonnegative(damping, "Section.damping", "s"),
         )
 
     @classmethod
@@ -83,6 +88,7 @@ class Section:
         density: float | None = None,
         shear_factor: float = 0.9,
         rigid: Iterable[str] = frozenset(),
+        damping: float = 0.0,
     ) -> Section:
         """Solid circle: A = πd²/4, I = πd⁴/64, J = πd⁴/32, GA = shear_factor·G·A.
 
@@ -93,6 +99,7 @@ class Section:
             density: ρ [kg/m³].
             shear_factor: Timoshenko's correction; 0.9 is the usual value for a circle.
             rigid: Strains that are exactly zero.
+            damping: Retardation time τ [s].
 
         Returns:
             The section, its `radius` known.
@@ -104,7 +111,8 @@ class Section:
         d = positive(diameter, "Section.diameter", "m")
         A = pi * d * d / 4
         second = A * d * d / 16
-        return cls._solid(A, (second, second), 2 * second, E, G, density, shear_factor, rigid, radius=d / 2)
+        moments = (A, (second, second), 2 * second)
+        return cls._solid(*moments, E, G, density, shear_factor, rigid, damping, radius=d / 2)
 
     @classmethod
     def rectangle(
@@ -118,6 +126,7 @@ class Section:
         shear_factor: float = 5 / 6,
         torsion: str = "st_venant",
         rigid: Iterable[str] = frozenset(),
+        damping: float = 0.0,
     ) -> Section:
         """Solid rectangle, b = width along d2 and h = height along d3: A = bh, I2 = bh³/12, I3 = hb³/12.
 
@@ -130,6 +139,7 @@ class Section:
             shear_factor: Correction of GA; 5/6 is Reissner's value.
             torsion: "st_venant" for the warping section (exact series), "polar" for J = I2 + I3.
             rigid: Strains that are exactly zero.
+            damping: Retardation time τ [s].
 
         Returns:
             The section.
@@ -138,30 +148,30 @@ class Section:
             SceneError: A number that is missing, or not finite and positive, or an unknown torsion.
         """
         require("Section", {"width": width, "height": height, "E": E, "G": G})
-        b = positive(width, "Section.width", "m")
-        h = positive(height, "Section.height", "m")
+        b, h = positive(width, "Section.width", "m"), positive(height, "Section.height", "m")
         A = b * h
         second = (A * h * h / 12, A * b * b / 12)
         if not isinstance(torsion, str) or torsion not in ("st_venant", "polar"):
             raise SceneError(f'must be "st_venant" or "polar", got {quoted(torsion)}', field="Section.torsion")
         J = sum(second) if torsion == "polar" else st_venant_constant(b, h)
-        return cls._solid(A, second, J, E, G, density, shear_factor, rigid)
+        return cls._solid(A, second, J, E, G, density, shear_factor, rigid, damping)
 
     @classmethod
-    def ramie(cls, *, rigid: Iterable[str] = frozenset()) -> Section:
+    def ramie(cls, *, rigid: Iterable[str] = frozenset(), damping: float = 0.0) -> Section:
         """The ramie fibre of Lyu, Cheng, Xu, CMES 127(2), 2021: circle of 20 µm, 1.54 g/cm³.
 
         E = 2224.6 cN/tex and G = 106.2 cN/tex are specific moduli; Pa = density · (cN/tex) · 1e4.
 
         Args:
             rigid: Strains that are exactly zero.
+            damping: Retardation time τ [s].
 
         Returns:
             The section.
         """
         ρ = 1540.0
         E, G = 2224.6 * CN_PER_TEX * ρ, 106.2 * CN_PER_TEX * ρ
-        return cls.circle(diameter=20e-6, E=E, G=G, density=ρ, rigid=rigid)
+        return cls.circle(diameter=20e-6, E=E, G=G, density=ρ, rigid=rigid, damping=damping)
 
     @property
     def compliance_n(self) -> Vector:
@@ -184,6 +194,7 @@ class Section:
         density: float | None,
         shear_factor: float,
         rigid: Iterable[str],
+        damping: float,
         radius: float | None = None,
     ) -> Section:
         """One material all over the section, its moduli and density checked."""
@@ -201,26 +212,8 @@ class Section:
             rhoI=None if ρ is None else (ρ * (I2 + I3), ρ * I2, ρ * I3),
             rigid=rigid,
             radius=radius,
+            damping=damping,
         )
-
-
-def st_venant_constant(width: float, height: float) -> float:
-    """Torsion constant of a rectangle with free warping.
-
-    J = a b³ [1/3 − (64/π⁵)(b/a) Σ tanh(nπa/2b)/n⁵], n = 1, 3, …, with a ≥ b the sides
-    (Timoshenko & Goodier, Theory of Elasticity, art. 109).
-
-    Args:
-        width: One side [m].
-        height: The other side [m].
-
-    Returns:
-        J [m⁴], a square's being 0.1405770·b⁴.
-    """
-    a, b = max(width, height), min(width, height)
-    # Terms fall as n⁻⁵: the remainder beyond n = 4001 is below 1/(8·4000⁴) = 5e-16.
-    total = sum(tanh(n * pi * a / (2 * b)) / n**5 for n in range(4001, 0, -2))
-    return a * b * b * b * (1 / 3 - 64 / pi**5 * b / a * total)
 
 
 def _pair(value: object, field: str, unit: str) -> Pair:

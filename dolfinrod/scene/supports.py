@@ -94,7 +94,7 @@ class Prescribed:
         at: "start", "end" or arc length [m].
         displacement: Along x, y, z [m]; a component None is not prescribed, nor is any if all is None.
         rotation: Rotation vector in spatial axes, beyond 2π allowed [rad]; None: the section may rotate.
-        history: How both grow; None: proportional.
+        history: How both grow; None: proportional, in a Dynamic motion too, up to its end.
         rod: Number of the rod; None: every rod.
 
     Raises:

@@ -16,9 +16,20 @@
     [[loads]]
     point_force = { at = "end", force = ["0 N", "-1 uN", "0 N"] }
 
+    [motion.dynamic]
+    t_end = "10 ms"
+    dt = "1 us"
+    scheme = "midpoint"
+
+    [[velocities]]
+    omega = [0, 0, "1 turn/s"]
+
+    [air]
+    field = ["20 m/s", 0, 0]
+
 Plain numbers are SI. A section is `circle`, `rectangle` or `ramie`, or has the fields of `Section` itself. A history is
-"steady" or rows [t, factor]; a displacement that is not prescribed is "free". The file of a rod `from_mesh` is sought
-from the folder of the scene file.
+"steady" or rows [t, factor]; a displacement that is not prescribed is "free". Without a table `motion` the scene is
+static. The file of a rod `from_mesh` is sought from the folder of the scene file.
 """
 
 from __future__ import annotations
@@ -31,8 +42,8 @@ from typing import Any
 
 from dolfinrod.scene import source
 from dolfinrod.scene.errors import SceneError
-from dolfinrod.scene.fields import Kind, Specific, meant, refuse_unknown
-from dolfinrod.scene.kinds import LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS
+from dolfinrod.scene.fields import Specific
+from dolfinrod.scene.kinds import AIR, LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS, VELOCITIES
 from dolfinrod.scene.motion import Static
 from dolfinrod.scene.options import options
 from dolfinrod.scene.rod import Rod
@@ -40,9 +51,11 @@ from dolfinrod.scene.scene import MOST_PARTS, Scene
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import UniformCurvature
 from dolfinrod.scene.spline import Spline
+from dolfinrod.scene.tables import Kind, meant, refuse_unknown
 
 __all__ = ["dumps", "load", "loads"]
 
+TABLES = ("section", "rods", "supports", "loads", "air", "motion", "velocities", "solve")
 # The time of tomllib grows with the square of the names in a dotted key.
 NAME = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+"""
 ENDLESS_KEY = re.compile(rf"""(?<![\w"'-])(?:{NAME}\.[ \t]*+){{32}}""")
@@ -86,7 +99,7 @@ def _parsed(text: str) -> dict[str, Any]:
 
 def _scene(data: Mapping[str, Any], folder: Path) -> Scene:
     """The scene that the tables of a file describe."""
-    refuse_unknown(data, ("section", "rods", "supports", "loads", "motion", "solve"), "")
+    refuse_unknown(data, TABLES, "")
     sections = {
         name: _section(table, f"section.{name}") for name, table in _table(data.get("section", {}), "section").items()
     }
@@ -94,7 +107,9 @@ def _scene(data: Mapping[str, Any], folder: Path) -> Scene:
         rods=[_rod(table, f"rods[{i}]", sections, folder) for i, table in enumerate(_list(data, "rods"))],
         supports=[_one(SUPPORTS, table, f"supports[{i}]") for i, table in enumerate(_list(data, "supports"))],
         loads=[_one(LOADS, table, f"loads[{i}]") for i, table in enumerate(_list(data, "loads"))],
+        air=AIR.read(data["air"], "air") if "air" in data else None,
         motion=_one(MOTIONS, data["motion"], "motion") if data.get("motion", {}) != {} else Static(),
+        velocities=[VELOCITIES.read(table, f"velocities[{i}]") for i, table in enumerate(_list(data, "velocities"))],
     )
 
 
@@ -109,7 +124,7 @@ def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
         TOML, in SI units.
 
     Raises:
-        SceneError: A history is a function of time.
+        SceneError: A history or a velocity is a function.
     """
     import tomli_w
 
@@ -120,7 +135,9 @@ def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
         "rods": [_shape(rod, f"rods[{i}]") | {"section": names[rod.section]} for i, rod in enumerate(scene.rods)],
         "supports": [_named(SUPPORTS, part, f"supports[{i}]") for i, part in enumerate(scene.supports)],
         "loads": [_named(LOADS, part, f"loads[{i}]") for i, part in enumerate(scene.loads)],
+        "air": {} if scene.air is None else _written(AIR, scene.air, "air"),
         "motion": _named(MOTIONS, scene.motion, "motion"),
+        "velocities": [_written(VELOCITIES, v, f"velocities[{i}]") for i, v in enumerate(scene.velocities)],
         "solve": dict(solve or {}),
     }
     return tomli_w.dumps({name: table for name, table in tables.items() if table})

@@ -16,7 +16,7 @@ import discrete
 import dolfinrod as dr
 from dolfinrod.output.scale import scale
 from dolfinrod.output.view import view
-from tests.output.results import shortened
+from tests.output.results import LEDGER, flight, shortened
 from tests.scenes import FLAT, GENERAL, SKEW, bend, cantilever, poses, rolled_up, tip_loaded
 
 pytestmark = pytest.mark.serial
@@ -110,6 +110,28 @@ def test_round_off_is_drawn_as_zero():
     n = result.plot().axes[1]
     assert n.get_ylim() == (-1.0, 1.0)
     assert all(not np.any(line.get_ydata()) for line in n.lines)
+
+
+def test_a_motion_is_drawn_over_seconds_with_its_ledger(tmp_path):
+    result = flight()
+    figure = result.plot(tmp_path / "result.png")
+    *_, path, ledger = figure.axes
+    assert [axes.get_xlabel() for axes in (path, ledger)] == ["time t [s]"] * 2
+    assert ledger.get_ylabel() == "energy E [mJ]"
+    drawn = {line.get_label(): line.get_ydata() for line in ledger.lines if len(line.get_xdata()) == len(result.t)}
+    assert list(drawn) == list(LEDGER[:-1])  # no loss of the time stepping, no line
+    for name, values in drawn.items():
+        np.testing.assert_allclose(values, 1e3 * (result.energy[name] - result.energy[name][0]), rtol=1e-12)
+    assert "17 stored states from t = 0 to 2 s" in figure._suptitle.get_text()
+    assert (corners(figure) >= 0.0).all()
+    assert (corners(figure) <= 1.0).all()
+
+
+def test_a_ledger_on_which_nothing_happens_is_drawn():
+    result = flight()
+    still = replace(result, energy={name: np.ones_like(result.t) for name in LEDGER})
+    ledger = still.plot().axes[-1]
+    assert ledger.get_ylim() == (-1.0, 1.0)
 
 
 def test_one_state_many_states_and_many_rods_are_drawn():

@@ -18,7 +18,7 @@ import discrete
 import dolfinrod as dr
 from dolfinrod.scene import toml
 from tests.conftest import world
-from tests.output.results import SCENE, identical, results, shortened
+from tests.output.results import SCENE, flight, identical, results, shortened
 from tests.scenes import GENERAL, cantilever
 
 TWO_STEPS = replace(SCENE, motion=dr.Static(steps=2))
@@ -80,6 +80,40 @@ def test_vtu_series_holds_the_arrays_of_all_rods(tmp_path, solved):
         assert np.bincount(rods).tolist() == [n - 1 for n in n_s]
         np.testing.assert_array_equal(np.diff(block.data, axis=1), 1)
         assert (block.data[rods == 1] >= n_s[0]).all()
+
+
+@pytest.mark.serial
+def test_velocities_are_written_where_there_are_any(tmp_path, solved):
+    moving = flight()
+    moving.write(tmp_path / "moving")
+    assert identical(dr.Result.load(tmp_path / "moving"), moving)
+    for i in (0, 9):
+        data = meshio.read(tmp_path / "moving" / f"rods-{i:04d}.vtu").point_data
+        np.testing.assert_array_equal(data["v"], moving.rods[0].v[i])
+        np.testing.assert_array_equal(data["omega"], moving.rods[0].omega[i])
+    table = np.genfromtxt(tmp_path / "moving" / "rod-0.csv", delimiter=",", names=True, deletechars="")
+    np.testing.assert_array_equal(table["vy_[m/s]"], moving.rods[0].v[..., 1].ravel())
+    np.testing.assert_array_equal(table["omegaz_[rad/s]"], 3.0)
+    solved.write(tmp_path / "resting")
+    assert not {"v", "omega"} & meshio.read(tmp_path / "resting" / "rods-0001.vtu").point_data.keys()
+    loaded = dr.Result.load(tmp_path / "resting")
+    assert all(rod.v is None and rod.omega is None for rod in loaded.rods)
+
+
+@pytest.mark.serial
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        (",vx [m/s]", ",ux [m/s]", r"must begin with the line t,s \[m\]"),
+        (",omegaz [rad/s]", "", r"must begin with the line t,s \[m\].*omegaz \[rad/s\], got 't,s"),
+        (",vx [m/s],vy [m/s],vz [m/s]", "", "must have 29 columns, got 32"),
+    ],
+)
+def test_a_damaged_table_of_velocities_is_answered(tmp_path, old, new, words):
+    flight().write(tmp_path)
+    text("rod-0.csv", old, new)(tmp_path)
+    with pytest.raises(dr.SceneError, match=words):
+        dr.Result.load(tmp_path)
 
 
 @pytest.mark.serial

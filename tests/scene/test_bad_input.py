@@ -94,6 +94,8 @@ NUMBERS = [
     (section(rhoA=0.0), "Section.rhoA must be positive, got 0.0 kg/m"),
     (section(rhoI=(1, 1, -1)), "Section.rhoI[2] must not be negative, got -1.0 kg m"),
     (section(radius=-inf), "Section.radius must be a finite number [m], got -inf m"),
+    (section(damping=-1.0), "Section.damping must not be negative, got -1.0 s"),
+    (section(damping=inf), "Section.damping must be a finite number [s], got inf s"),
     (section(rigid="bending"), "Section.rigid must be a set of names out of shear, extension, got 'bending'"),
     (section(rigid=np.array([["shear"]])), "Section.rigid must be a set of names out of shear, extension"),
     (circle(diameter=nan), "Section.diameter must be a finite number [m], got nan m"),
@@ -179,7 +181,7 @@ SCENES = [
     (scene(rods=ROD), "rods must be a tuple, got Rod("),
     (scene(supports=[PUSH]), "supports[0] must be one of Clamp, Pin, Guide, Prescribed, got PointForce("),
     (scene(loads=[CLAMP]), "loads[0] must be one of PointForce, PointMoment"),
-    (scene(motion="static"), "motion must be Static, got 'static'"),
+    (scene(motion="static"), "motion must be Static or Dynamic, got 'static'"),
     (scene(loads=[dr.Gravity((0, 0, -9.81))]), "rods[0].section.rhoA must be given [kg/m], since loads[0] is Gravity"),
     (scene(loads=[dr.PointForce(UP, 1.1)]), "loads[0].at must lie on rod 0, between 0 and 1.0 m, got 1.1 m"),
     (scene(loads=[dr.LineForce(UP, (0, 2))]), "loads[0].between[1] must lie on rod 0, between 0 and 1.0 m, got 2.0 m"),
@@ -196,14 +198,17 @@ SCENES = [
 ]
 FILES = [
     (file("diameter", "diametre"), "section.ramie.circle.diametre is unknown; known are diameter"),
-    (file("diameter", "diametre"), "known are diameter, E, G, density, shear_factor, rigid; did you mean diameter?"),
+    (file("diameter", "diametre"), "known are diameter, E, G, density, shear_factor, rigid, damping; did you"),
     (file("point_force", "pointForce"), "loads[0].pointForce is unknown; known are point_force, point_moment, "),
     (file("point_force", "pointForce"), "; did you mean point_force?"),
-    (file("[[rods]]", "[[rod]]"), "rod is unknown; known are section, rods, supports, loads, motion, solve; did you"),
+    (
+        file("[[rods]]", "[[rod]]"),
+        "rod is unknown; known are section, rods, supports, loads, air, motion, velocities, solve; did you",
+    ),
     (file('"ramie"\n', '"Ramie"\n'), "must be the name of a section (ramie), got 'Ramie'; did you mean ramie?"),
     (
         file("E = ", "e = "),
-        "section.ramie.circle.e is unknown; known are diameter, E, G, density, shear_factor, rigid; ",
+        "section.ramie.circle.e is unknown; known are diameter, E, G, density, shear_factor, rigid, damping; ",
     ),
     (file("elements", "element"), "solve.element is unknown; known are elements, degree, kinematics; did you mean el"),
     (file("elements = 16", "elements = 0"), "solve.elements must be a whole number of at least 1, got 0"),

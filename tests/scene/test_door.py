@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import discrete
 import dolfinrod as dr
 from dolfinrod.scene import SceneError
 from dolfinrod.scene.balance import pushed_away
+from dolfinrod.scene.door import admit
 from dolfinrod.scene.mechanism import turned_away
 from tests.scenes import GENERAL, poses
 
@@ -96,6 +98,17 @@ def test_a_scene_without_equilibrium_is_refused_at_the_door(solve):
     words = f"supports must hold the rods, or loads balance: {AWAY.format('(1, 0, 0)', 3)}"
     with pytest.raises(SceneError, match=re.escape(words)):
         solve(scene, elements=4)
+
+
+@pytest.mark.parametrize(
+    ("supports", "loads"),
+    [([], [dr.PointForce(UP, "end")]), ([SLIDE], [dr.Gravity((3, 4, 0))]), ([], [dr.PointMoment((0, 0, 2), "end")])],
+)
+def test_mass_resists_a_push_and_a_turn(supports, loads):
+    resting = dr.Scene([ROD], supports, loads)
+    with pytest.raises(SceneError, match="supports must hold the rods, or loads balance"):
+        admit(resting, None, dr.Result)
+    admit(replace(resting, motion=dr.Dynamic(1.0)), None, dr.Result)
 
 
 @both

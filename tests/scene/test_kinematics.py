@@ -183,3 +183,44 @@ def test_planes_compare_and_refuse_what_is_none() -> None:
         dr.Planar(normal=(0, 0, 0))
     with pytest.raises(SceneError, match=r"Planar\.origin must have 3 entries \[m\], got \(1, 2\)"):
         dr.Planar(normal=(0, 0, 1), origin=(1, 2))
+
+
+ROUND = dr.Section.circle(diameter=0.01, E=1e9, G=4e8, density=1e3)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "normal"),
+    [
+        (dr.Velocity((0, 1, 0)), (0, 0, 1)),
+        (dr.Velocity((1, 0, 2)), (0, 1, 0)),
+        (dr.Velocity((0, 1, 1)), (0, -1, 1)),
+        (dr.Velocity(omega=(0, 0, 3), about=(1, 2, 3)), (0, 0, 1)),
+        (dr.Velocity(omega=(0, 2, 0)), (0, 1, 0)),
+        (dr.Velocity((0, 1, 0), omega=(0, 2, 0)), None),
+        (dr.Velocity(omega=(1, 0, 0)), None),
+        (dr.Velocity(lambda r: np.sin(8 * pi * r[:, :1]) * [0.0, 0.0, 1.0]), (0, 1, 0)),
+        (dr.Velocity(lambda r: np.sin(8 * pi * r[:, :1]) * [0.0, 1.0, 1e-3]), (0, -1e-3, 1)),
+        (dr.Velocity(lambda r: np.stack([0 * r[:, 0], r[:, 0], r[:, 0] ** 2], axis=1)), None),
+        (dr.Velocity(lambda r: np.stack([0 * r[:, 0], 1 + r[:, 0], np.sin(8 * pi * r[:, 0])], axis=1)), None),
+    ],
+)
+def test_velocities_at_the_start_choose_the_plane_of_a_round_rod(velocity: dr.Velocity, normal: Vector | None) -> None:
+    scene = dr.Scene([dr.Rod.straight(1.0, ROUND)], motion=dr.Dynamic(1.0), velocities=[velocity])
+    plane = detect(scene)
+    assert isinstance(plane, dr.Planar if normal else dr.Spatial)
+    if isinstance(plane, dr.Planar):
+        assert abs(np.dot(plane.normal, normal)) == pytest.approx(np.linalg.norm(normal), rel=1e-12)
+    else:
+        assert obstacle(scene, dr.Planar((0, 0, 1), (0, 0, 0))) == "velocities[0] leads out of the plane"
+
+
+@pytest.mark.parametrize(
+    ("field", "normal"),
+    [((0, 1, 0), (0, 0, 1)), ((5, 0, 1), (0, 1, 0)), ((0, 0, 0), (0, 0, 1)), (lambda x, t: t * x, None)],
+)
+def test_steady_air_keeps_a_plane_and_a_function_promises_none(field: object, normal: Vector | None) -> None:
+    scene = dr.Scene([dr.Rod.straight(1.0, ROUND)], motion=dr.Dynamic(1.0), air=dr.Air(field))
+    plane = detect(scene)
+    assert (np.abs(plane.normal) == normal).all() if isinstance(plane, dr.Planar) else normal is None
+    if normal is None:
+        assert obstacle(scene, dr.Planar((0, 0, 1), (0, 0, 0))) == "air may flow out of the plane"

@@ -91,8 +91,8 @@ def test_different_components_may_be_held_at_one_place() -> None:
         ),
         (lambda: dr.Scene([SHORT], loads=[dr.Clamp("end")]), r"loads\[0\] must be one of PointForce, .*, got Clamp"),
         (lambda: dr.Scene([SHORT], contacts=["floor"]), r"contacts must be empty, this version knows no contact, got"),
-        (lambda: dr.Scene([SHORT], air="still"), r"air must be None, this version knows no air, got 'still'"),
-        (lambda: dr.Scene([SHORT], motion=None), r"motion must be Static, got None"),
+        (lambda: dr.Scene([SHORT], air="still"), r"air must be Air or None, got 'still'"),
+        (lambda: dr.Scene([SHORT], motion=None), r"motion must be Static or Dynamic, got None"),
         (
             lambda: dr.Scene([SHORT], loads=[UP, dr.PointForce((0, 0, 1), at=1.5)]),
             r"loads\[1\]\.at must lie on rod 0, between 0 and 1\.0 m, got 1\.5 m",

@@ -36,8 +36,15 @@ bare = st.builds(
     rhoI=st.none() | st.tuples(positive, positive, positive),
     rigid=st.sets(st.sampled_from(["shear", "extension"])),
     radius=st.none() | positive,
+    damping=st.just(0.0) | positive,
 )
-solid = {"E": positive, "G": positive, "density": positive, "rigid": st.sets(st.just("shear"))}
+solid = {
+    "E": positive,
+    "G": positive,
+    "density": positive,
+    "rigid": st.sets(st.just("shear")),
+    "damping": st.floats(0.0, 1e3),
+}
 sides = st.floats(1e-6, 1e3)
 sections = st.one_of(
     bare,
@@ -45,7 +52,7 @@ sections = st.one_of(
     st.builds(
         dr.Section.rectangle, width=sides, height=sides, torsion=st.sampled_from(["st_venant", "polar"]), **solid
     ),
-    st.builds(dr.Section.ramie, rigid=st.sets(st.sampled_from(["shear", "extension"]))),
+    st.builds(dr.Section.ramie, rigid=st.sets(st.sampled_from(["shear", "extension"])), damping=positive),
 )
 knots = st.lists(st.tuples(*[st.integers(-9, 9)] * 2), min_size=2, max_size=5, unique=True)
 rods = st.one_of(
@@ -88,6 +95,42 @@ def test_every_scene_comes_back_equal(
     scene = dr.Scene(rods, [support], load, motion=motion)
     options = {"elements": [4] * len(rods), "degree": 3, "kinematics": "spatial"}
     assert loads(dumps(scene, options)) == (scene, options)
+
+
+schemes = st.sampled_from([dr.ImplicitEuler(), dr.Midpoint()])
+ends = st.floats(1e-9, 1e9)
+parts = st.floats(1e-5, 1.0)
+output = (
+    st.none() | parts | st.sets(st.floats(0.0, 1.0), min_size=1, max_size=4).map(lambda times: tuple(sorted(times)))
+)
+
+
+@st.composite
+def dynamics(draw: st.DrawFn) -> dr.Dynamic:
+    """Any motion in time: steps of given length or free, stored now and then."""
+    t_end, part, stored = draw(ends), draw(st.none() | parts), draw(output)
+    stored = tuple(t_end * t for t in stored) if isinstance(stored, tuple) else stored and t_end * stored
+    tol = draw(st.none() | st.floats(1e-12, 0.1)) if part is None else None
+    return dr.Dynamic(t_end, part and t_end * part, draw(schemes), tol, stored)
+
+
+flows = st.builds(dr.Air, vectors, positive, positive)
+velocities = st.builds(dr.Velocity, vectors, vectors, vectors, which)
+round_rods = st.builds(dr.Rod.straight, positive, st.builds(dr.Section.circle, diameter=sides, **solid))
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    rods=st.lists(round_rods, min_size=1, max_size=2),
+    motion=dynamics(),
+    air=st.none() | flows,
+    moved=st.lists(velocities, max_size=2),
+)
+def test_every_scene_that_moves_comes_back_equal(
+    rods: list[dr.Rod], motion: dr.Dynamic, air: dr.Air | None, moved: list[dr.Velocity]
+) -> None:
+    scene = dr.Scene(rods, motion=motion, air=air, velocities=moved)
+    assert loads(dumps(scene)) == (scene, {})
 
 
 def test_the_complete_scene_file_is_the_scene_of_the_python_example() -> None:
@@ -179,6 +222,122 @@ def test_every_kind_reads_as_in_python() -> None:
     assert options == {}
 
 
+MOVING = """
+[section.fibre.ramie]
+damping = "1 ms"
+
+[section.rod.circle]
+diameter = "1 cm"
+E = "1 GPa"
+G = "0.4 GPa"
+density = 1000
+damping = 0.002
+
+[section.bare]
+GJ = 1
+EI = 1
+rigid = ["shear", "extension"]
+rhoA = 1
+radius = "1 mm"
+damping = "3 us"
+
+[[rods]]
+straight = { length = "40 mm" }
+section = "fibre"
+
+[[rods]]
+straight = { length = 1, start = [0, 1, 0] }
+section = "rod"
+
+[[rods]]
+straight = { length = 1, start = [0, 2, 0] }
+section = "bare"
+
+[[loads]]
+gravity = { g = [0, 0, "-9.81 m/s**2"], history = [[0, 0], [0.5, 1]] }
+
+[air]
+field = ["1 m/s", "-36 km/hour", 0]
+density = "1.2 kg/m**3"
+viscosity = "18 uPa*s"
+
+[motion.dynamic]
+t_end = "1 s"
+dt = "1 ms"
+scheme = "midpoint"
+output = ["10 ms", 0.5, "1 s"]
+
+[[velocities]]
+v = ["1 m/s", 0, 0]
+omega = [0, 0, "1 turn/s"]
+about = ["1 cm", 0, 0]
+rod = 1
+"""
+
+
+def test_a_motion_in_time_reads_as_in_python() -> None:
+    scene, _ = loads(MOVING)
+    assert [rod.section.damping for rod in scene.rods] == [1e-3, 0.002, pytest.approx(3e-6)]
+    assert scene.rods[0].section == dr.Section.ramie(damping=1e-3)
+    assert scene.rods[1].section == dr.Section.circle(diameter=0.01, E=1e9, G=4e8, density=1e3, damping=0.002)
+    assert scene.air == dr.Air((1.0, -10.0, 0.0), density=1.2, viscosity=18e-6)
+    assert scene.motion == dr.Dynamic(1.0, dt=1e-3, scheme=dr.Midpoint(), output=(0.01, 0.5, 1.0))
+    assert scene.velocities == (dr.Velocity((1, 0, 0), (0, 0, 2 * np.pi), (0.01, 0, 0), rod=1),)
+    regular = MOVING.replace('["10 ms", 0.5, "1 s"]', '"10 ms"').replace(
+        'dt = "1 ms"\nscheme = "midpoint"', "tol = 1e-4"
+    )
+    assert loads(regular)[0].motion == dr.Dynamic(1.0, tol=1e-4, output=0.01)
+    bare = MOVING.replace('field = ["1 m/s", "-36 km/hour", 0]\ndensity = "1.2 kg/m**3"\nviscosity = "18 uPa*s"', "")
+    assert loads(bare)[0].air == dr.Air()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('t_end = "1 s"\n', "", r"^motion\.dynamic\.t_end is missing$"),
+        ('"1 ms"\nscheme', '"1 mm"\nscheme', r"^motion\.dynamic\.dt must be a quantity in s, got '1 mm'"),
+        (
+            '"1 ms"\nscheme',
+            '"1 ns"\nscheme',
+            r"^motion\.dynamic\.dt must be at least t_end/1000000 = 1e-06 s, got 1e-09 s",
+        ),
+        (
+            '"midpoint"',
+            '"mid point"',
+            r'scheme must be "implicit_euler" or "midpoint", got .*; did you mean midpoint\?',
+        ),
+        ('"midpoint"', "2", r'^motion\.dynamic\.scheme must be "implicit_euler" or "midpoint", got 2$'),
+        ('"midpoint"', '"midpoint"\ntol = 0.1', r"^motion\.dynamic\.tol must be left out where dt is given, got 0\.1"),
+        ('0.5, "1 s"', '0.5, "1 min"', r"^motion\.dynamic\.output must ascend between 0 and t_end = 1\.0 s, got"),
+        ('["10 ms", 0.5, "1 s"]', '"often"', r"^motion\.dynamic\.output must be a quantity in s, got 'often'"),
+        ('["1 m/s", "-36', '["1 m", "-36', r"^air\.field\[0\] must be a quantity in m/s, got '1 m'"),
+        ('["1 m/s", "-36 km/hour", 0]', '"gusty"', r"^air\.field must be a quantity in m/s, got 'gusty'"),
+        ('"1.2 kg/m**3"', '"0 kg/m**3"', r"^air\.density must be positive, got 0\.0 kg/m³"),
+        (
+            "viscosity",
+            "viscous",
+            r"^air\.viscous is unknown; known are field, density, viscosity; did you mean viscosity\?",
+        ),
+        ("[air]", "[[air]]", r"^air must be a table, got \["),
+        ("[[velocities]]", "[velocities]", r"^velocities must be a list of tables, written \[\[velocities\]\], got"),
+        ("rod = 1", "rod = 3", r"^velocities\[0\]\.rod must be below 3, the number of rods, got 3"),
+        ("omega = [0, 0,", "omega = [0,", r"^velocities\[0\]\.omega must have 3 entries \[rad/s\], got"),
+        ('damping = "3 us"', 'damping = "-3 us"', r"^section\.bare\.damping must not be negative, got -3"),
+        ('damping = "3 us"', 'damping = "3 N"', r"^section\.bare\.damping must be a quantity in s, got '3 N'"),
+        ('radius = "1 mm"', "", r"^rods\[2\]\.section\.radius must be given \[m\], since air drags the rod"),
+        (
+            "[motion.dynamic]",
+            "[motion.dynamics]",
+            r"^motion\.dynamics is unknown; known are static, dynamic; did you mean",
+        ),
+    ],
+)
+def test_a_motion_that_cannot_be_is_refused_by_field(old: str, new: str, message: str) -> None:
+    assert old in MOVING
+    with pytest.raises(SceneError, match=message):
+        loads(MOVING.replace(old, new))
+
+
 def leaves(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
     """Paths of all plain values in nested tables and lists."""
     if isinstance(value, dict | list):
@@ -188,12 +347,14 @@ def leaves(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 
 
 DATA = tomllib.loads(EVERY_KIND + "[solve]\nelements = [4, 4, 4]\ndegree = 3\nkinematics = 'planar'")
+TIMES = tomllib.loads(MOVING)
+EVERY_FIELD = [(data, path) for data in (DATA, TIMES) for path in leaves(data)]
 
 
 @pytest.mark.parametrize("wrong", [{"a": 1}, "absurd", nan, date(1979, 5, 27), [[[]]], "9 lightyear**9"])
-@pytest.mark.parametrize("path", leaves(DATA), ids=str)
-def test_whatever_single_field_is_wrong_is_named(path: tuple[Any, ...], wrong: object) -> None:
-    data = deepcopy(DATA)
+@pytest.mark.parametrize(("given", "path"), EVERY_FIELD, ids=[str(path) for _, path in EVERY_FIELD])
+def test_whatever_single_field_is_wrong_is_named(given: dict[str, Any], path: tuple[Any, ...], wrong: object) -> None:
+    data = deepcopy(given)
     inner = data
     for key in path[:-1]:
         inner = inner[key]
@@ -203,6 +364,20 @@ def test_whatever_single_field_is_wrong_is_named(path: tuple[Any, ...], wrong: o
     field = [key for key in path if isinstance(key, str)][-1]
     # The constructor knows the side of an arc as its d2.
     assert {"towards": "d2"}.get(field, field) in re.split(r"[.\[\]]", caught.value.field)
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [
+        ({"air": dr.Air(lambda x, t: t * x)}, "air.field"),
+        ({"velocities": [dr.Velocity(), dr.Velocity(np.sin)]}, "velocities[1].v"),
+    ],
+)
+def test_a_flow_that_is_a_function_cannot_be_written(changes: dict[str, Any], field: str) -> None:
+    scene = dr.Scene([dr.Rod.straight(1.0, dr.Section.ramie())], motion=dr.Dynamic(1.0), **changes)
+    with pytest.raises(SceneError, match="must be a vector to be written to a file, got the function") as caught:
+        dumps(scene)
+    assert caught.value.field == field
 
 
 def test_a_function_of_time_cannot_be_written() -> None:
@@ -219,7 +394,7 @@ def test_a_function_of_time_cannot_be_written() -> None:
         (
             "[solve]",
             "[resolve]",
-            r"^resolve is unknown; known are section, rods, supports, loads, motion, solve",
+            r"^resolve is unknown; known are section, rods, supports, loads, air, motion, velocities, solve",
         ),
         (
             'at = "end", force',
@@ -260,8 +435,8 @@ def test_a_function_of_time_cannot_be_written() -> None:
             "[motion.static]\nsteps = 0",
             r"motion\.static\.steps must be a whole number of at least 1, got 0",
         ),
-        ("[motion.static]", "[motion.dynamic]", r"motion\.dynamic is unknown; known are static"),
-        ("[solve]", "[air]", r"air is unknown"),
+        ("[motion.static]", "[motion.dynamic]", r"motion\.dynamic\.t_end is missing"),
+        ("[solve]", "[air]", r"air\.elements is unknown; known are field, density, viscosity"),
     ],
 )
 def test_a_file_that_cannot_be_is_refused_by_field(old: str, new: str, message: str) -> None:

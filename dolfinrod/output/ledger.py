@@ -1,0 +1,55 @@
+"""The energies of a motion over time, and the works that change them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.output.scale import scale
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from dolfinrod.result import Result
+
+__all__ = ["draw_ledger"]
+
+# Energies that the rods have are lines, works done on them dashed; the colours are Okabe and Ito's.
+LINES = {
+    "kinetic": ("#D55E00", "-"),
+    "strain": ("#0072B2", "-"),
+    "potential": ("#009E73", "-"),
+    "load work": ("#CC79A7", "--"),
+    "support work": ("#E69F00", "--"),
+    "drag": ("#56B4E9", "--"),
+    "damping": ("0.2", "--"),
+    "numerical": ("0.6", "--"),
+}
+OTHER = ("0.45", ":")
+# Relative to the largest: the rest is round-off, and left out.
+ROUND_OFF = 1e-9
+
+
+def draw_ledger(axes: Axes, result: Result) -> None:
+    """Change of each energy since the start, and the works; their sums are equal at every time.
+
+    Args:
+        axes: Where to draw.
+        result: With a ledger.
+    """
+    changes = {name: values - values[0] for name, values in result.energy.items()}
+    most = max(float(np.abs(values).max()) for values in changes.values())
+    unit = scale(most, "J")
+    for name, values in changes.items():
+        if np.abs(values).max() > ROUND_OFF * most:
+            color, style = LINES.get(name, OTHER)
+            axes.plot(result.t, unit.factor * values, color=color, linestyle=style, label=name)
+    if not most:
+        axes.plot(result.t, np.zeros_like(result.t), color="0.75", label="nothing")
+        axes.set_ylim(-1.0, 1.0)
+    axes.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
+    axes.grid(alpha=0.25)
+    axes.set(xlabel="time t [s]", ylabel=f"energy E [{unit.unit}]")
+    axes.set_title("Energies (lines) and works (dashed) since the start", fontsize=11)
+    axes.legend(fontsize=8, frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
