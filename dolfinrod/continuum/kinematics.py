@@ -123,3 +123,15 @@ class Kinematics(Protocol):
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames in space of turned stress-free frames."""
         ...
+
+    def cayley(self, q_0: Array, q_1: Array) -> tuple[Array, Array]:
+        """Turn of a step in the turned frame by Cayley's map, and ∂/∂q₁."""
+        ...
+
+    def turned_spin(self, q: Array, v: Array) -> Array:
+        """A spin or moment of the turned frame in working directions."""
+        ...
+
+    def turned_back(self, q: Array, v: Array) -> Array:
+        """Back from there."""
+        ...

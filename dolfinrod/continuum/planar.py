@@ -99,6 +99,18 @@ class PlanarRods:
         """None: the normal is fixed, (n, 1, 1) twice."""
         return np.zeros((len(q), 1, 1)), np.zeros((len(q), 1, 1))
 
+    def cayley(self, q_0: Array, q_1: Array) -> tuple[Array, Array]:
+        """The angle between them, (n, 1), and its derivative: a turn about the normal is its own momentum's."""
+        return q_1 - q_0, np.ones((len(q_0), 1, 1))
+
+    def turned_spin(self, q: Array, v: Array) -> Array:
+        """v itself: the normal is fixed, (n, 1)."""
+        return v
+
+    def turned_back(self, q: Array, v: Array) -> Array:
+        """v itself, (n, 1)."""
+        return v
+
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames R(φ) R₀ in space, shapes (t, s, 1), (3, 1), (s, 3, 3) → (t, s, 3, 3)."""
         p = quaternion.exponential(q * spin_axes[:, 0])

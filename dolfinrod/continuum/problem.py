@@ -53,6 +53,7 @@ class Problem:
         spins: Section axes at the Gauss points in components of spin, shape (cells, points, n_spin, 3).
         held_force: Residual on this rank at the dofs given to `hold`.
         terms: Names of all that acts.
+        line_loads: History and full residual of each line load.
     """
 
     def __init__(self, scene: Scene, discretization: Discretization, placement: Placement) -> None:
@@ -64,7 +65,7 @@ class Problem:
         self._lump()
         self.hold(np.zeros(0, dtype=np.int32))
         self._point_terms = point_terms(scene, self.kinematics, placement, self._locate_owned)
-        self._line_loads = list(zip(self._line_histories, discretization.line_loads(self._line_fields), strict=True))
+        self.line_loads = list(zip(self._line_histories, discretization.line_loads(self._line_fields), strict=True))
         self.terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads))
         self.advance_to(0.0)
 
@@ -152,10 +153,14 @@ class Problem:
     def add_residual(self, b: NDArray[np.float64]) -> None:
         """Add this rank's residual at the current state and time to the local array b."""
         self.discretization.residual.add_vector(b)
-        for history, vector in self._line_loads:
+        self.add_loads(b, self.x)
+
+    def add_loads(self, b: NDArray[np.float64], x: NDArray[np.float64]) -> None:
+        """Add what the loads at the current time put on a state."""
+        for history, vector in self.line_loads:
             b += factor(history, self.t, self.scene.motion.t_end) * vector
         for term in self._acting:
-            rows, values = term.residual(self.x)
+            rows, values = term.residual(x)
             np.add.at(b, rows, values)
 
     def balance_multipliers(self, b: NDArray[np.float64]) -> None:

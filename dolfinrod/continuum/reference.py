@@ -17,6 +17,7 @@ __all__ = [
     "lagrange_nodes",
     "lagrange_slopes",
     "node_rule",
+    "node_weights",
     "quadrature_points",
     "quadrature_weights",
 ]
@@ -37,6 +38,13 @@ def node_rule(degree: int) -> dict[str, Any]:
         "quadrature_points": [[float(x)] for x in points[::-1, 0]],
         "quadrature_weights": [float(w) for w in weights[::-1]],
     }
+
+
+def node_weights(degree: int) -> NDArray[np.float64]:
+    """Weights of that rule in the order of `lagrange_nodes`; they sum to 1."""
+    points, weights = basix.make_quadrature(basix.QuadratureType.gll, CELL, 2 * degree - 1)
+    nearest = np.abs(lagrange_nodes(degree)[:, None] - points[None, :, 0]).argmin(axis=1)
+    return np.asarray(weights)[nearest]
 
 
 def lagrange_nodes(degree: int) -> NDArray[np.float64]:

@@ -121,6 +121,21 @@ class SpatialRods:
         moments = quaternion.cross(np.eye(3)[None], 2.0 * half[:, None, :])
         return np.swapaxes(changes, 1, 2), np.swapaxes(moments, 1, 2)
 
+    def cayley(self, q_0: Array, q_1: Array) -> tuple[Array, Array]:
+        """c = 2 Im(p̄₀ p₁)/(p₀·p₁) with R₁ = R₀ cay(c), and ∂c/∂p₁, shapes (n, 3) and (n, 3, 4)."""
+        cosine = np.einsum("ni,ni->n", q_0, q_1)[:, None]
+        half = quaternion.right(q_0)
+        c = 2.0 * np.einsum("nij,nj->ni", half, q_1) / cosine
+        return c, (2.0 * half - c[:, :, None] * q_0[:, None, :]) / cosine[:, :, None]
+
+    def turned_spin(self, q: Array, v: Array) -> Array:
+        """R(p) v, (n, 3)."""
+        return quaternion.rotate(q, v)
+
+    def turned_back(self, q: Array, v: Array) -> Array:
+        """R(p)ᵀ v of unit quaternions, (n, 3)."""
+        return quaternion.rotate(q * [1.0, -1.0, -1.0, -1.0], v)
+
     def turned_frames(self, q: Array, spin_axes: Array, frames: Array) -> Array:
         """Section frames R(p) R₀ in space, shapes (t, s, 4), (3, 3), (s, 3, 3) → (t, s, 3, 3)."""
         at_rest = exact_zeros(spin_axes.T @ frames)

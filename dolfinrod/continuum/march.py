@@ -1,0 +1,170 @@
+"""Motion in time, step after step, from the velocities that a scene begins with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.continuum.ledger import Ledger
+from dolfinrod.continuum.stepping import StepFailed
+from dolfinrod.result import StepLog
+from dolfinrod.scene.history import kinks
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.moving import Moving
+    from dolfinrod.continuum.newton import Newton, Outcome
+    from dolfinrod.continuum.readout import Readout, State
+    from dolfinrod.scene import Scene
+
+    Array = NDArray[np.float64]
+
+__all__ = ["March", "Trajectory", "begin"]
+
+# Halvings of a step that does not converge.
+MOST_CUTS = 10
+# Times closer than this part of a step are one.
+SAME = 1e-9
+
+
+@dataclass
+class Trajectory:
+    """What is kept of a motion.
+
+    Args:
+        t: Stored times [s].
+        states: Gathered states at them, with velocities "v" and momenta "π".
+        log: One row a step.
+        iterations: All Newton iterations, failed attempts included.
+    """
+
+    t: list[float] = field(default_factory=list)
+    states: list[State] = field(default_factory=list)
+    log: list[StepLog] = field(default_factory=list)
+    iterations: int = 0
+
+
+def begin(problem: Moving) -> None:
+    """Give the nodes the velocities and momenta of the scene at t = 0."""
+    d, place, scene = problem.discretization, problem.placement, problem.scene
+    second = problem.lumped.second
+    v, ω = np.zeros(len(problem.x)), np.zeros(len(problem.x))
+    r = d.dofs["r"]
+    for velocity in scene.velocities:
+        cells = np.arange(len(problem.rod)) if velocity.rod is None else np.flatnonzero(problem.rod == velocity.rod)
+        at = place.to_space(problem.x[r[cells]]).reshape(-1, 3)
+        moved = velocity.at(at).reshape(len(cells), -1, 3) @ place.axes * (second / place.length)
+        v[r[cells]] += moved
+        spin = np.asarray(velocity.omega) @ place.spin_axes * second
+        ω[d.dofs["q"][cells][:, :, : len(spin)]] += spin
+    v[problem.constraints.dofs] = 0.0
+    ω[problem.constraints.dofs] = 0.0
+    lumped = problem.lumped
+    problem.v = v[lumped.r]
+    problem.π = np.einsum("nij,nj->ni", lumped.J, ω[lumped.q[:, : problem.kinematics.n_spin]])
+
+
+class March:
+    """Steps a scene in time.
+
+    Args:
+        newton: Solver of the steps.
+        readout: Gathers states.
+        trajectory: Grows.
+        progress: Called with every step and the final time.
+    """
+
+    def __init__(
+        self,
+        newton: Newton,
+        readout: Readout,
+        trajectory: Trajectory,
+        progress: Callable[[StepLog, float], None] | None,
+    ) -> None:
+        self.newton, self._readout, self.trajectory, self._progress = newton, readout, trajectory, progress
+        self.problem: Moving = newton.problem
+        self.ledger = Ledger(self.problem)
+
+    def run(self, dt: float, t_0: float = 0.0) -> None:
+        """Go to the end of the scene's time.
+
+        Raises:
+            StepFailed: A step could not be taken, however short.
+        """
+        scene = self.problem.scene
+        stored = outputs(scene)
+        t = t_0
+        for target in targets(scene, dt, t_0):
+            while t < target * (1.0 - SAME):
+                t = self._step(t, target)
+            if stored is None or np.abs(stored - t).min() <= SAME * dt:
+                self._store(t)
+
+    def _step(self, t: float, target: float) -> float:
+        """One step towards the target, shorter if it has to be; the time it leads to."""
+        problem, trajectory = self.problem, self.trajectory
+        start, v, π = problem.x.copy(), problem.v, problem.π
+        tried = target - t
+        for cuts in range(MOST_CUTS + 1):
+            problem.begin_step(t, tried)
+            problem.x[:] = self._guess(start, tried)
+            outcome = self.newton.solve()
+            trajectory.iterations += outcome.iterations
+            if outcome.converged:
+                problem.end_step()
+                self.ledger.step()
+                self._log(t + tried, outcome, cuts)
+                return t + tried
+            problem.x[:], problem.v, problem.π = start, v, π
+            tried /= 2
+        raise StepFailed(t=t, step=2 * tried, reason=outcome.reason)
+
+    def _guess(self, start: Array, dt: float) -> Array:
+        """Where the velocities lead."""
+        problem = self.problem
+        x = problem.x.copy()
+        r = problem.lumped.r
+        free = ~np.isin(r, problem.constraints.dofs)
+        x[r] = np.where(free, start[r] + problem.h * problem.v, x[r])
+        return x
+
+    def _log(self, t: float, outcome: Outcome, cuts: int) -> None:
+        energy = self.ledger.strain() * self.problem.placement.moment
+        row = StepLog(t, outcome.iterations, cuts, outcome.residual, energy)
+        self.trajectory.log.append(row)
+        if self._progress is not None:
+            self._progress(row, self.problem.scene.motion.t_end)
+
+    def _store(self, t: float) -> None:
+        self.trajectory.t.append(t)
+        self.trajectory.states.append(self._readout.state())
+        self.ledger.store()
+
+
+def targets(scene: Scene, dt: float, t_0: float) -> list[float]:
+    """Ends of the steps: equal ones of at most dt, with the kinks of histories and the stored times between."""
+    end = scene.motion.t_end
+    n = int(np.ceil(end / dt * (1.0 - SAME)))
+    even = end * np.arange(1, n + 1) / n
+    corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
+    stored = outputs(scene)
+    times = np.unique(np.concatenate([even, corners, [] if stored is None else stored]))
+    times = times[(times > t_0) & (times <= end)]
+    keep = np.append(np.diff(times) > SAME * dt, True)
+    return [float(t) for t in times[keep]]
+
+
+def outputs(scene: Scene) -> Array | None:
+    """Times at which states are stored; None: after every step."""
+    output = scene.motion.output
+    if output is None:
+        return None
+    if isinstance(output, tuple):
+        return np.array(output)
+    n = int(np.floor(scene.motion.t_end / output * (1.0 + SAME)))
+    return np.union1d(output * np.arange(1, n + 1), [scene.motion.t_end])
