@@ -90,16 +90,16 @@ class March:
         self.problem: Moving = newton.problem
         self.ledger = Ledger(self.problem)
 
-    def run(self, dt: float, t_0: float = 0.0) -> None:
-        """Go to the end of the scene's time.
+    def run(self) -> None:
+        """Go from the present state to the end of the scene's time.
 
         Raises:
             StepFailed: A step could not be taken, however short.
         """
-        scene = self.problem.scene
-        stored = outputs(scene)
-        t = t_0
-        for target in targets(scene, dt, t_0):
+        scene, t = self.problem.scene, 0.0
+        dt, stored = scene.motion.dt, outputs(scene)
+        self._store(t)
+        for target in targets(scene, dt, t):
             while t < target * (1.0 - SAME):
                 t = self._step(t, target)
             if stored is None or np.abs(stored - t).min() <= SAME * dt:
@@ -142,7 +142,7 @@ class March:
 
     def _store(self, t: float) -> None:
         self.trajectory.t.append(t)
-        self.trajectory.states.append(self._readout.state())
+        self.trajectory.states.append(self._readout.state() | self.problem.rates(self._readout))
         self.ledger.store()
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from dolfinrod.continuum.discretization import Discretization
     from dolfinrod.continuum.placement import Placement
+    from dolfinrod.continuum.readout import Readout
     from dolfinrod.continuum.schemes import Scheme
     from dolfinrod.scene import Scene
 
@@ -183,6 +184,18 @@ class Moving(Problem):
         rows = λ[:, None]
         backend.add_entries(A, *self.entries(q, rows, (w * (before - between))[:, :, None]))
         backend.add_entries(A, *self.entries(rows, q, (w * (after - 0.5 * between))[:, None, :]))
+
+    def rates(self, readout: Readout) -> dict[str, Array]:
+        """Velocities and spins at the nodes by cell, on every rank, in working units."""
+        d, lumped, kin = self.discretization, self.lumped, self.kinematics
+        spin = kin.turned_back(self.x[lumped.q], self.π)
+        spin = kin.turned_spin(self.x[lumped.q], np.einsum("nij,nj->ni", lumped.J_inverse, spin))
+        moving = backend.function(d.space)
+        moving.x.array[lumped.r] = self.v
+        moving.x.array[lumped.q[:, : kin.n_spin]] = spin
+        moving.x.scatter_forward()
+        q = d.dofs["q"][:, :, : kin.n_spin]
+        return readout.gather(v=moving.x.array[d.dofs["r"]], omega=moving.x.array[q])
 
     def end_step(self) -> None:
         """Take the velocities and momenta that the step leads to."""

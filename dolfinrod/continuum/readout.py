@@ -81,6 +81,14 @@ class Readout:
             self._history(rod, slice(a, b), s[a:b], R_0[a:b], stacked) for rod, (a, b) in enumerate(pairwise(first))
         )
 
+    def rates(self, states: list[State], second: float) -> tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...]:
+        """Velocity [m/s] and spin [rad/s] of the nodes of each rod in space, from gathered states that hold them."""
+        p, place = self.problem, self.problem.placement
+        v = np.stack([state["v"] for state in states])[:, :, self._order] @ place.axes.T * (place.length / second)
+        ω = np.stack([state["omega"] for state in states])[:, :, self._order] @ place.spin_axes.T / second
+        first = np.concatenate([[0], np.cumsum(p.discretization.elements)])
+        return tuple((_joined(v[:, a:b]), _joined(ω[:, a:b])) for a, b in pairwise(first))
+
     def _history(
         self, rod: int, cells: slice, s: NDArray[np.float64], R_0: NDArray[np.float64], states: State
     ) -> RodHistory:

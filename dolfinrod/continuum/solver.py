@@ -9,6 +9,7 @@ from mpi4py import MPI
 
 import numpy as np
 
+from dolfinrod.continuum.dynamics import move
 from dolfinrod.continuum.failure import findings
 from dolfinrod.continuum.lift import restated
 from dolfinrod.continuum.neutral import PhaseCondition
@@ -22,7 +23,7 @@ from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stability import judging
 from dolfinrod.continuum.stepping import Path, StepFailed, Walk
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
-from dolfinrod.scene import Planar, SceneError, Spatial
+from dolfinrod.scene import Dynamic, Planar, SceneError, Spatial
 from dolfinrod.scene.advice import advice
 from dolfinrod.scene.door import admit
 from dolfinrod.scene.kinematics import detect, obstacle
@@ -58,8 +59,11 @@ def solve(
     check_degree(degree)
     chosen = choose(scene, kinematics)
     counts = element_counts(elements, len(scene.rods))
-    in_space = kinematics is None
-    result, failure = _path(scene, chosen, comm, degree, counts, progress, start, in_space=in_space)
+    if isinstance(scene.motion, Dynamic):
+        result, failure = move(scene, chosen, comm, degree, counts, progress)
+    else:
+        in_space = kinematics is None
+        result, failure = _path(scene, chosen, comm, degree, counts, progress, start, in_space=in_space)
     if failure is not None:
         raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=failure.advice)
     return result
