@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum.ledger import Ledger
+from dolfinrod.continuum.pace import Pace
 from dolfinrod.continuum.stepping import StepFailed
 from dolfinrod.result import StepLog
 from dolfinrod.scene.history import kinks
@@ -30,6 +31,8 @@ __all__ = ["March", "Trajectory", "begin"]
 MOST_CUTS = 10
 # Times closer than this part of a step are one.
 SAME = 1e-9
+# Error allowed in a step of free length, in L, and the first such step over the unit of time.
+TOLERANCE, FIRST = 1e-6, 1e-4
 
 
 @dataclass
@@ -89,6 +92,12 @@ class March:
         self.newton, self._readout, self.trajectory, self._progress = newton, readout, trajectory, progress
         self.problem: Moving = newton.problem
         self.ledger = Ledger(self.problem)
+        motion = self.problem.scene.motion
+        if motion.dt is None:
+            first = FIRST * min(self.problem.lumped.second, motion.t_end)
+            self._pace = Pace(first, self.problem.scheme.order + 1, TOLERANCE if motion.tol is None else motion.tol)
+        else:
+            self._pace = Pace(motion.dt, self.problem.scheme.order + 1)
 
     def run(self) -> None:
         """Go from the present state to the end of the scene's time.
@@ -97,34 +106,42 @@ class March:
             StepFailed: A step could not be taken, however short.
         """
         scene, t = self.problem.scene, 0.0
-        dt, stored = scene.motion.dt, outputs(scene)
+        stored = outputs(scene)
         self._store(t)
-        for target in targets(scene, dt, t):
+        for target in targets(scene):
             while t < target * (1.0 - SAME):
                 t = self._step(t, target)
-            if stored is None or np.abs(stored - t).min() <= SAME * dt:
+                if stored is None:
+                    self._store(t)
+            if stored is not None and np.abs(stored - target).min() <= SAME * target:
                 self._store(t)
 
     def _step(self, t: float, target: float) -> float:
         """One step towards the target, shorter if it has to be; the time it leads to."""
-        problem, trajectory = self.problem, self.trajectory
-        start, v, π = problem.x.copy(), problem.v, problem.π
-        tried = target - t
+        problem, trajectory, pace = self.problem, self.trajectory, self._pace
+        start, motion = problem.x.copy(), problem.motion()
+        n = np.ceil((target - t) / pace.length * (1.0 - SAME))
+        tried = (target - t) / max(n, 1.0)
         for cuts in range(MOST_CUTS + 1):
             problem.begin_step(t, tried)
-            problem.x[:] = self._guess(start, tried)
+            problem.x[:] = self._guess(start)
             outcome = self.newton.solve()
             trajectory.iterations += outcome.iterations
             if outcome.converged:
                 problem.end_step()
-                self.ledger.step()
-                self._log(t + tried, outcome, cuts)
-                return t + tried
-            problem.x[:], problem.v, problem.π = start, v, π
-            tried /= 2
+                if pace.allows(problem.local_error(), tried):
+                    self.ledger.step()
+                    self._log(t + tried, outcome, cuts)
+                    return target if n <= 1.0 and not cuts else t + tried
+                tried = min(pace.length, tried)
+            else:
+                pace.fail(tried)
+                tried /= 2
+            problem.x[:] = start
+            problem.resume(motion)
         raise StepFailed(t=t, step=2 * tried, reason=outcome.reason)
 
-    def _guess(self, start: Array, dt: float) -> Array:
+    def _guess(self, start: Array) -> Array:
         """Where the velocities lead."""
         problem = self.problem
         x = problem.x.copy()
@@ -146,16 +163,16 @@ class March:
         self.ledger.store()
 
 
-def targets(scene: Scene, dt: float, t_0: float) -> list[float]:
-    """Ends of the steps: equal ones of at most dt, with the kinks of histories and the stored times between."""
-    end = scene.motion.t_end
-    n = int(np.ceil(end / dt * (1.0 - SAME)))
+def targets(scene: Scene) -> list[float]:
+    """Times that must be met: the end, the kinks of histories, the stored ones, and equal steps where dt is given."""
+    end, dt = scene.motion.t_end, scene.motion.dt
+    n = 1 if dt is None else int(np.ceil(end / dt * (1.0 - SAME)))
     even = end * np.arange(1, n + 1) / n
     corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
     stored = outputs(scene)
     times = np.unique(np.concatenate([even, corners, [] if stored is None else stored]))
-    times = times[(times > t_0) & (times <= end)]
-    keep = np.append(np.diff(times) > SAME * dt, True)
+    times = times[(times > 0.0) & (times <= end)]
+    keep = np.append(np.diff(times) > SAME * end / n, True)
     return [float(t) for t in times[keep]]
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mpi4py import MPI
+
 import numpy as np
 
 from dolfinrod.continuum import backend
@@ -49,6 +51,8 @@ class Moving(Problem):
         self.lumped = Lumped.of(self)
         self.v = np.zeros(self.lumped.r.shape)
         self.π = np.zeros((len(self.lumped.q), self.kinematics.n_spin))
+        self._acceleration: Array | None = None
+        self._h_before = np.inf
         self._before, self._start = self.x.copy(), (self.v, self.π)
         lines = [load for load in scene.loads if isinstance(load, Gravity | LineForce)]
         self._weights = [
@@ -184,6 +188,25 @@ class Moving(Problem):
         rows = λ[:, None]
         backend.add_entries(A, *self.entries(q, rows, (w * (before - between))[:, :, None]))
         backend.add_entries(A, *self.entries(rows, q, (w * (after - 0.5 * between))[:, None, :]))
+
+    def motion(self) -> tuple[Array, Array, Array | None, float]:
+        """What the state before a step does not tell of the motion."""
+        return self.v, self.π, self._acceleration, self._h_before
+
+    def resume(self, motion: tuple[Array, Array, Array | None, float]) -> None:
+        """Take a motion back."""
+        self.v, self.π, self._acceleration, self._h_before = motion
+
+    def local_error(self) -> float:
+        """Error of the last step, in L: ½ h² a of backward Euler, h³ a′/12 of the midpoint rule."""
+        a = (self.v - self._start[0]) / self.h
+        if self.scheme.order == 1 or self._acceleration is None:
+            error = 0.5 * self.h**2 * np.abs(a).max(initial=0.0)
+        else:
+            jerk = 2.0 * (a - self._acceleration) / (self.h + self._h_before)
+            error = self.h**3 / 12.0 * np.abs(jerk).max(initial=0.0)
+        self._acceleration, self._h_before = a, self.h
+        return float(self.discretization.comm.allreduce(float(error), op=MPI.MAX))
 
     def rates(self, readout: Readout) -> dict[str, Array]:
         """Velocities and spins at the nodes by cell, on every rank, in working units."""

@@ -37,16 +37,18 @@ class Scheme:
     Args:
         name: In words.
         level: Where the forces act, as part of the way from the state before to the one after.
+        order: Of the error in the step.
         side: Of the moment of momentum that the balance holds: 0 before the step, 1 after it.
     """
 
     name: str
     level: float
+    order: int
     side: int
 
 
-EULER = Scheme("implicit Euler", 1.0, 1)
-MIDPOINT = Scheme("variational midpoint", 0.5, 0)
+EULER = Scheme("implicit Euler", 1.0, 1, 1)
+MIDPOINT = Scheme("variational midpoint", 0.5, 2, 0)
 
 
 def momentum(kin: Kinematics, J: Array, q_0: Array, q_1: Array, h: float, bend: float) -> tuple[Array, Array]:

@@ -1,0 +1,43 @@
+"""How long the next step in time may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["Pace"]
+
+# Part of the step that would just meet the tolerance, and how much a step may differ from the one before.
+SAFETY, SHORTER, LONGER = 0.9, 0.2, 2.0
+
+
+@dataclass
+class Pace:
+    """Length of the next step, as long as the error of each stays within a tolerance.
+
+    Args:
+        length: Of the next step [s].
+        order: Power of the step with which the error of one step falls.
+        tol: Error allowed in a step, in L; None: the length is fixed.
+    """
+
+    length: float
+    order: int
+    tol: float | None = None
+
+    def allows(self, error: float, tried: float) -> bool:
+        """Whether a step was accurate enough; the next one is chosen by its error.
+
+        Args:
+            error: Estimate for the step, in L.
+            tried: Its length [s].
+        """
+        if self.tol is None:
+            return True
+        wanted = SAFETY * (self.tol / error) ** (1.0 / self.order) if error > 0.0 else LONGER
+        self.length = tried * min(max(wanted, SHORTER), LONGER)
+        return error <= self.tol
+
+    def fail(self, tried: float) -> None:
+        """A step that found no state: half of it comes next, if steps are free."""
+        if self.tol is not None:
+            self.length = tried / 2.0
