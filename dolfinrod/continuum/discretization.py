@@ -83,7 +83,7 @@ class Discretization:
         """A tangent that is zero only where every tangent is, with all entries that the elements span.
 
         It is assembled at a random state with random coefficients; to it come the diagonal, for held dofs, and the
-        part by which a force at a node turns with its section.
+        part by which a force at a node moves and turns with it.
         """
         random = np.random.default_rng(seed=0)
         for function in (self.x, self.r_0, self.C_n, self.C_m):
@@ -92,8 +92,9 @@ class Discretization:
         self.tangent.add_matrix(spanned)
         every = np.arange(len(self.x.x.array), dtype=np.int32)
         r, q = (self.dofs[f].reshape(-1, self.dofs[f].shape[2]) for f in ("r", "q"))
-        r, q = np.repeat(r, q.shape[1], axis=1).ravel(), np.tile(q, (1, r.shape[1])).ravel()
-        backend.add_entries(spanned, np.concatenate([every, r]), np.concatenate([every, q]), 1.0)
+        both = np.concatenate([r, q], axis=1)
+        rows, columns = np.repeat(r, both.shape[1], axis=1).ravel(), np.tile(both, (1, r.shape[1])).ravel()
+        backend.add_entries(spanned, np.concatenate([every, rows]), np.concatenate([every, columns]), 1.0)
         spanned.assemble()
         return spanned
 

@@ -32,7 +32,7 @@ class Ledger:
     def __init__(self, problem: Moving) -> None:
         self._problem, self._strain = problem, Strain(problem)
         space = problem.discretization.space
-        self._parts = [backend.function(space) for _ in range(3)]
+        self._parts = [backend.function(space) for _ in range(4)]
         self.rows: list[dict[str, float]] = []
         self._now = {"kinetic": self._kinetic(), "strain": self._strain_energy(), "potential": problem.potential()}
         self._works = dict.fromkeys(("load work", "support work", "drag", "damping", "numerical"), 0.0)
@@ -49,21 +49,22 @@ class Ledger:
         """Book a step that has just ended."""
         problem, before = self._problem, self._now
         change = problem.change()
-        inertia, elastic, loads = self._forces()
+        inertia, elastic, loads, drag = self._forces()
         held = problem.constraints.dofs
         held = held[held < problem.discretization.n_owned]
-        total = inertia + elastic + loads
+        total = inertia + elastic + loads + drag
         pushed = float(total[held] @ change[held])
-        resisted = [float(part @ change) for part in (inertia, elastic, loads)]
+        resisted = [float(part @ change) for part in (inertia, elastic, loads, drag)]
         sums = problem.discretization.comm.allreduce(np.array([*resisted, pushed]))
         self._now = {"kinetic": self._kinetic(), "strain": self._strain_energy(), "potential": problem.potential()}
         gained = {name: self._now[name] - before[name] for name in before}
         self._works["load work"] += gained["potential"] - sums[2]
-        self._works["support work"] += sums[3]
+        self._works["drag"] -= sums[3]
+        self._works["support work"] += sums[4]
         self._works["numerical"] += gained["kinetic"] + gained["strain"] - sums[0] - sums[1]
 
     def _forces(self) -> list[Array]:
-        """Residuals of inertia, elasticity and loads at this rank's own dofs, along the sphere of the balance."""
+        """Residuals of inertia, elasticity, loads and air at this rank's own dofs, along the sphere of the balance."""
         problem, n = self._problem, self._problem.discretization.n_owned
         arrays = [part.x.array for part in self._parts]
         for b in arrays:
@@ -79,8 +80,8 @@ class Ledger:
 
     def _kinetic(self) -> float:
         problem, lumped = self._problem, self._problem.lumped
-        body = problem.kinematics.turned_back(problem.x[lumped.q], problem.π)
-        energy = 0.5 * float(lumped.m @ np.einsum("ni,ni->n", problem.v, problem.v))
+        body = problem.kinematics.turned_back(problem.x[lumped.q], problem.motion.π)
+        energy = 0.5 * float(lumped.m @ np.einsum("ni,ni->n", problem.motion.v, problem.motion.v))
         energy += 0.5 * float(np.einsum("ni,nij,nj->", body, lumped.J_inverse, body))
         return float(problem.discretization.comm.allreduce(energy))
 

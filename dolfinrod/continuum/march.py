@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum.ledger import Ledger
+from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.pace import Pace
 from dolfinrod.continuum.stepping import StepFailed
 from dolfinrod.result import StepLog
@@ -68,8 +69,8 @@ def begin(problem: Moving) -> None:
     v[problem.constraints.dofs] = 0.0
     ω[problem.constraints.dofs] = 0.0
     lumped = problem.lumped
-    problem.v = v[lumped.r]
-    problem.π = np.einsum("nij,nj->ni", lumped.J, ω[lumped.q[:, : problem.kinematics.n_spin]])
+    spins = np.einsum("nij,nj->ni", lumped.J, ω[lumped.q[:, : problem.kinematics.n_spin]])
+    problem.motion = Motion(v[lumped.r], spins)
 
 
 class March:
@@ -119,7 +120,7 @@ class March:
     def _step(self, t: float, target: float) -> float:
         """One step towards the target, shorter if it has to be; the time it leads to."""
         problem, trajectory, pace = self.problem, self.trajectory, self._pace
-        start, motion = problem.x.copy(), problem.motion()
+        start, motion = problem.x.copy(), problem.motion
         n = np.ceil((target - t) / pace.length * (1.0 - SAME))
         tried = (target - t) / max(n, 1.0)
         for cuts in range(MOST_CUTS + 1):
@@ -138,7 +139,7 @@ class March:
                 pace.fail(tried)
                 tried /= 2
             problem.x[:] = start
-            problem.resume(motion)
+            problem.motion = motion
         raise StepFailed(t=t, step=2 * tried, reason=outcome.reason)
 
     def _guess(self, start: Array) -> Array:
@@ -147,7 +148,7 @@ class March:
         x = problem.x.copy()
         r = problem.lumped.r
         free = ~np.isin(r, problem.constraints.dofs)
-        x[r] = np.where(free, start[r] + problem.h * problem.v, x[r])
+        x[r] = np.where(free, start[r] + problem.h * problem.motion.v, x[r])
         return x
 
     def _log(self, t: float, outcome: Outcome, cuts: int) -> None:

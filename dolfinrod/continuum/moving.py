@@ -9,7 +9,9 @@ from mpi4py import MPI
 import numpy as np
 
 from dolfinrod.continuum import backend
+from dolfinrod.continuum.drag import Drag
 from dolfinrod.continuum.lumped import Lumped
+from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.schemes import momentum
 from dolfinrod.scene import Gravity, LineForce, Steady
@@ -41,25 +43,22 @@ class Moving(Problem):
 
     Attributes:
         lumped: Masses of the nodes.
-        v: Velocities of this rank's own nodes, in L per unit of time, shape (n, d).
-        π: Moments of momentum of their sections in working directions, shape (n, n_spin).
+        motion: How the nodes move.
     """
 
     def __init__(self, scene: Scene, discretization: Discretization, placement: Placement, scheme: Scheme) -> None:
         super().__init__(scene, discretization, placement)
         self.scheme = scheme
         self.lumped = Lumped.of(self)
-        self.v = np.zeros(self.lumped.r.shape)
-        self.π = np.zeros((len(self.lumped.q), self.kinematics.n_spin))
-        self._acceleration: Array | None = None
-        self._h_before = np.inf
-        self._before, self._start = self.x.copy(), (self.v, self.π)
+        self.motion = Motion(np.zeros(self.lumped.r.shape), np.zeros((len(self.lumped.q), self.kinematics.n_spin)))
+        self._before, self._start = self.x.copy(), self.motion
         lines = [load for load in scene.loads if isinstance(load, Gravity | LineForce)]
         self._weights = [
             backend.summed(discretization.space, vector)
             for load, (history, vector) in zip(lines, self.line_loads, strict=True)
             if isinstance(load, Gravity) and isinstance(history, Steady)
         ]
+        self._drag = None if scene.air is None else Drag(self, scene.air)
         self._forces = backend.function(discretization.space)
         self._nodal = [np.unique(discretization.dofs[f]) for f in ("r", "q")]
         self._multipliers = np.unique(discretization.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
@@ -70,22 +69,22 @@ class Moving(Problem):
     def begin_step(self, t: float, dt: float) -> None:
         """Put the supports at the end of a step from t on, and the loads where the scheme has them [s]."""
         self._before[:] = self.x
-        self._start = self.v, self.π
+        self._start = self.motion
         self.h = dt / self.lumped.second
         self.advance_to(t + self.scheme.level * dt)
         self.x[self.constraints.dofs] = self.constraints.values(t + dt)
 
     def add_residual(self, b: Array) -> None:
         """Add this rank's residual of the step to the local array b."""
-        self.add_apart(b, b, b)
+        self.add_apart(b, b, b, b)
 
-    def add_apart(self, inertia: Array, elastic: Array, loads: Array) -> None:
-        """Add this rank's residuals of inertia, elasticity and loads, each to its own local array or all to one."""
+    def add_apart(self, inertia: Array, elastic: Array, loads: Array, drag: Array) -> None:
+        """Add this rank's residuals of inertia, elasticity, loads and air, each to its own local array."""
         lumped, kin = self.lumped, self.kinematics
         r, q = lumped.r, lumped.q
         per_step = 1.0 / (self.scheme.level * self.h)
         after = self.x.copy()
-        inertia[r] += per_step * lumped.m[:, None] * ((after[r] - self._before[r]) / self.h - self._start[0])
+        inertia[r] += per_step * lumped.m[:, None] * ((after[r] - self._before[r]) / self.h - self._start.v)
         inertia[q] += per_step * np.einsum("nij,ni->nj", kin.spin(self.side()), self._gained())
         if self.scheme.level != 1.0:
             self.x[:] = self._between(after)
@@ -94,7 +93,15 @@ class Moving(Problem):
         if self.scheme.level != 1.0:
             # The nodes are on the sphere after the step, not between.
             elastic[self._multipliers] = 0.0
-        self.add_loads(loads, after if self.scheme.level == 1.0 else self._between(after, unit=True))
+        at = after if self.scheme.level == 1.0 else self._between(after, unit=True)
+        self.add_loads(loads, at)
+        if self._drag is not None:
+            drag[r] -= self._drag.force(at[r], at[q], self._rate(), self.t)
+
+    def _rate(self) -> Array:
+        """Mean velocity of this rank's own nodes in the step."""
+        r = self.lumped.r
+        return (self.x[r] - self._before[r]) / self.h
 
     def change(self) -> Array:
         """What the last step changed of this rank's own positions and rotations, nothing else."""
@@ -130,7 +137,7 @@ class Moving(Problem):
         q = self.lumped.q
         bend = 0.0 if self.scheme.side else 0.5
         Π, _ = momentum(self.kinematics, self.lumped.J, self._before[q], self.x[q], self.h, bend)
-        return self.kinematics.turned_spin(self.side(), Π) - self._start[1]
+        return self.kinematics.turned_spin(self.side(), Π) - self._start.π
 
     def balance_multipliers(self, b: Array) -> None:
         """As in statics, along the rotations of the balance; the multipliers are no part of the forces between."""
@@ -160,7 +167,17 @@ class Moving(Problem):
         mass = (twice / h * self.lumped.m)[:, None, None] * np.eye(r.shape[1])
         backend.add_entries(A, *self.entries(r, r, mass))
         backend.add_entries(A, *self.entries(q, q, twice * self._turning()))
+        if self._drag is not None:
+            self._add_drag(A)
         A.assemble()
+
+    def _add_drag(self, A: PETSc.Mat) -> None:
+        """Tangent of the air's force."""
+        r, q = self.lumped.r, self.lumped.q
+        at = self.x if self.scheme.level == 1.0 else self._between(self.x, unit=True)
+        by_rate, by_q = self._drag.gradient(at[r], at[q], self._rate(), self.t)
+        backend.add_entries(A, *self.entries(r, r, -by_rate / self.h))
+        backend.add_entries(A, *self.entries(r, q, -self.scheme.level * by_q))
 
     def _turning(self) -> Array:
         """∂/∂q₁ of what the sections gain, along the sphere, shape (n, n_q, n_q)."""
@@ -189,32 +206,18 @@ class Moving(Problem):
         backend.add_entries(A, *self.entries(q, rows, (w * (before - between))[:, :, None]))
         backend.add_entries(A, *self.entries(rows, q, (w * (after - 0.5 * between))[:, None, :]))
 
-    def motion(self) -> tuple[Array, Array, Array | None, float]:
-        """What the state before a step does not tell of the motion."""
-        return self.v, self.π, self._acceleration, self._h_before
-
-    def resume(self, motion: tuple[Array, Array, Array | None, float]) -> None:
-        """Take a motion back."""
-        self.v, self.π, self._acceleration, self._h_before = motion
-
     def local_error(self) -> float:
-        """Error of the last step, in L: ½ h² a of backward Euler, h³ a′/12 of the midpoint rule."""
-        a = (self.v - self._start[0]) / self.h
-        if self.scheme.order == 1 or self._acceleration is None:
-            error = 0.5 * self.h**2 * np.abs(a).max(initial=0.0)
-        else:
-            jerk = 2.0 * (a - self._acceleration) / (self.h + self._h_before)
-            error = self.h**3 / 12.0 * np.abs(jerk).max(initial=0.0)
-        self._acceleration, self._h_before = a, self.h
-        return float(self.discretization.comm.allreduce(float(error), op=MPI.MAX))
+        """Error of the last step, in L."""
+        error = self.motion.error(self._start, self.scheme.order)
+        return float(self.discretization.comm.allreduce(error, op=MPI.MAX))
 
     def rates(self, readout: Readout) -> dict[str, Array]:
         """Velocities and spins at the nodes by cell, on every rank, in working units."""
         d, lumped, kin = self.discretization, self.lumped, self.kinematics
-        spin = kin.turned_back(self.x[lumped.q], self.π)
+        spin = kin.turned_back(self.x[lumped.q], self.motion.π)
         spin = kin.turned_spin(self.x[lumped.q], np.einsum("nij,nj->ni", lumped.J_inverse, spin))
         moving = backend.function(d.space)
-        moving.x.array[lumped.r] = self.v
+        moving.x.array[lumped.r] = self.motion.v
         moving.x.array[lumped.q[:, : kin.n_spin]] = spin
         moving.x.scatter_forward()
         q = d.dofs["q"][:, :, : kin.n_spin]
@@ -223,22 +226,24 @@ class Moving(Problem):
     def end_step(self) -> None:
         """Take the velocities and momenta that the step leads to."""
         r, q, kin = self.lumped.r, self.lumped.q, self.kinematics
-        rate = (self.x[r] - self._before[r]) / self.h
-        if self.scheme.side:
-            Π, _ = momentum(kin, self.lumped.J, self._before[q], self.x[q], self.h, 0.0)
-            self.v, self.π = rate, kin.turned_spin(self.x[q], Π)
-            return
+        rate, start = self._rate(), self._start
+        mean, _ = momentum(kin, self.lumped.J, self._before[q], self.x[q], self.h, 0.0)
+        v, π = rate, kin.turned_spin(self.x[q], mean)
+        if not self.scheme.side:
+            # What a support adds to the momentum of what it holds is not known: the mean rate stands for it there.
+            held_r, held_q = (np.isin(dofs, self.constraints.dofs) for dofs in (r, q))
+            v = np.where(held_r, rate, 2.0 * rate - start.v)
+            π = np.where(held_q.any(axis=1)[:, None], π, self._left())
+        self.motion = Motion(v, π, (v - start.v) / self.h, self.h)
+
+    def _left(self) -> Array:
+        """Moment of momentum that a midpoint step leaves the free sections with."""
+        q, kin = self.lumped.q, self.kinematics
         b = self._forces.x.array
         b[:] = 0.0
-        self.add_apart(np.zeros_like(b), b, b)
+        self.add_apart(np.zeros_like(b), b, b, b)
         backend.sum_over_ranks(self._forces)
         Π, _ = momentum(kin, self.lumped.J, self._before[q], self.x[q], self.h, -0.5)
         # Half of a change of q after the step moves the state between: a quarter of the spin for a quaternion.
         share = 0.125 if kin.n_spin == 3 else 0.5
-        pushed = share * np.einsum("nij,nj->ni", kin.spin(self.x[q]), b[q])
-        held_r, held_q = (np.isin(dofs, self.constraints.dofs) for dofs in (r, q))
-        self.v = np.where(held_r, rate, 2.0 * rate - self.v)
-        # What a support adds to the momentum of a section it holds is not known: the mean rate stands for it.
-        mean, _ = momentum(kin, self.lumped.J, self._before[q], self.x[q], self.h, 0.0)
-        free = kin.turned_spin(self.x[q], Π) - self.h * pushed
-        self.π = np.where(held_q.any(axis=1)[:, None], kin.turned_spin(self.x[q], mean), free)
+        return kin.turned_spin(self.x[q], Π) - self.h * share * np.einsum("nij,nj->ni", kin.spin(self.x[q]), b[q])
