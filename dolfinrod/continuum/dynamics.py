@@ -19,7 +19,7 @@ from dolfinrod.continuum.schemes import EULER, MIDPOINT
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stepping import StepFailed
 from dolfinrod.result import Formulation, Result, Statistics
-from dolfinrod.scene import ImplicitEuler, Planar, in_time
+from dolfinrod.scene import ImplicitEuler, Planar, SceneError, in_time
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from dolfinrod.continuum.kinematics import Kinematics
     from dolfinrod.result import StepLog
-    from dolfinrod.scene import Scene, Spatial
+    from dolfinrod.scene import Dynamic, Scene, Spatial
 
     Progress = Callable[[StepLog, float], None]
 
@@ -37,21 +37,30 @@ __all__ = ["move"]
 
 def move(
     scene: Scene,
+    times: Dynamic,
     kinematics: Planar | Spatial,
     comm: MPI.Comm,
     degree: int,
     counts: tuple[int, ...],
     progress: Progress | None,
 ) -> tuple[Result, StepFailed | None]:
-    """The motion as far as it could be followed, and what stopped it, if anything did."""
+    """The motion as far as it could be followed, and what stopped it, if anything did.
+
+    Raises:
+        SceneError: A section that damps, which this model does not know yet.
+    """
+    for k, rod in enumerate(scene.rods):
+        if rod.section.damping:
+            unknown = f"must be 0 s, the continuum model knows no damping yet, got {rod.section.damping} s"
+            raise SceneError(unknown, field=f"rods[{k}].section.damping")
     started = time.perf_counter()
     rods: Kinematics = PlanarRods() if isinstance(kinematics, Planar) else SpatialRods()
     with borrowed(comm, rods, degree, counts) as (discretization, is_new):
-        scheme = EULER if isinstance(scene.motion.scheme, ImplicitEuler) else MIDPOINT
+        scheme = EULER if isinstance(times.scheme, ImplicitEuler) else MIDPOINT
         problem = Moving(in_time(scene), discretization, Placement.of(scene, kinematics), scheme)
         begin(problem)
         newton, readout, trajectory = Newton(problem), Readout(problem), Trajectory()
-        march = March(newton, readout, trajectory, progress)
+        march = March(problem, times, newton, readout, trajectory, progress)
         compiling = discretization.seconds_compile if is_new else 0.0
         ready = time.perf_counter()
         failure = _marched(march)

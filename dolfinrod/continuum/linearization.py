@@ -56,7 +56,7 @@ def continued(scene: Scene, t: float) -> Scene:
 
     loads = [replace(load, history=line(load.history)) for load in scene.loads]
     supports = [replace(s, history=line(s.history)) if isinstance(s, Prescribed) else s for s in scene.supports]
-    return replace(scene, loads=loads, supports=supports, motion=Static(t_end=t_end))
+    return replace(scene, loads=loads, supports=supports, motion=Static(t_end=t_end), velocities=(), air=None)
 
 
 def varies(scene: Scene, t: float) -> bool:

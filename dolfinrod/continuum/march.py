@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from dolfinrod.continuum.moving import Moving
     from dolfinrod.continuum.newton import Newton, Outcome
     from dolfinrod.continuum.readout import Readout, State
-    from dolfinrod.scene import Scene
+    from dolfinrod.scene import Dynamic, Scene
 
     Array = NDArray[np.float64]
 
@@ -77,6 +77,8 @@ class March:
     """Steps a scene in time.
 
     Args:
+        problem: Owner of the state.
+        times: How far and how finely.
         newton: Solver of the steps.
         readout: Gathers states.
         trajectory: Grows.
@@ -85,20 +87,22 @@ class March:
 
     def __init__(
         self,
+        problem: Moving,
+        times: Dynamic,
         newton: Newton,
         readout: Readout,
         trajectory: Trajectory,
         progress: Callable[[StepLog, float], None] | None,
     ) -> None:
         self.newton, self._readout, self.trajectory, self._progress = newton, readout, trajectory, progress
-        self.problem: Moving = newton.problem
+        self.problem, self._times = problem, times
         self.ledger = Ledger(self.problem)
-        motion = self.problem.scene.motion
-        if motion.dt is None:
-            first = FIRST * min(self.problem.lumped.second, motion.t_end)
-            self._pace = Pace(first, self.problem.scheme.order + 1, TOLERANCE if motion.tol is None else motion.tol)
+        order = problem.scheme.order + 1
+        if times.dt is None:
+            first = FIRST * min(problem.lumped.second, times.t_end)
+            self._pace = Pace(first, order, TOLERANCE if times.tol is None else times.tol)
         else:
-            self._pace = Pace(motion.dt, self.problem.scheme.order + 1)
+            self._pace = Pace(times.dt, order)
 
     def run(self) -> None:
         """Go from the present state to the end of the scene's time.
@@ -106,10 +110,9 @@ class March:
         Raises:
             StepFailed: A step could not be taken, however short.
         """
-        scene, t = self.problem.scene, 0.0
-        stored = outputs(scene)
+        t, stored = 0.0, outputs(self._times)
         self._store(t)
-        for target in targets(scene):
+        for target in targets(self.problem.scene, self._times):
             while t < target * (1.0 - SAME):
                 t = self._step(t, target)
                 if stored is None:
@@ -164,25 +167,25 @@ class March:
         self.ledger.store()
 
 
-def targets(scene: Scene) -> list[float]:
+def targets(scene: Scene, times: Dynamic) -> list[float]:
     """Times that must be met: the end, the kinks of histories, the stored ones, and equal steps where dt is given."""
-    end, dt = scene.motion.t_end, scene.motion.dt
+    end, dt = times.t_end, times.dt
     n = 1 if dt is None else int(np.ceil(end / dt * (1.0 - SAME)))
     even = end * np.arange(1, n + 1) / n
     corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
-    stored = outputs(scene)
-    times = np.unique(np.concatenate([even, corners, [] if stored is None else stored]))
-    times = times[(times > 0.0) & (times <= end)]
-    keep = np.append(np.diff(times) > SAME * end / n, True)
-    return [float(t) for t in times[keep]]
+    stored = outputs(times)
+    met = np.unique(np.concatenate([even, corners, [] if stored is None else stored]))
+    met = met[(met > 0.0) & (met <= end)]
+    keep = np.append(np.diff(met) > SAME * end / n, True)
+    return [float(t) for t in met[keep]]
 
 
-def outputs(scene: Scene) -> Array | None:
+def outputs(times: Dynamic) -> Array | None:
     """Times at which states are stored; None: after every step."""
-    output = scene.motion.output
+    output = times.output
     if output is None:
         return None
-    if isinstance(output, tuple):
+    if not isinstance(output, float):
         return np.array(output)
-    n = int(np.floor(scene.motion.t_end / output * (1.0 + SAME)))
-    return np.union1d(output * np.arange(1, n + 1), [scene.motion.t_end])
+    n = int(np.floor(times.t_end / output * (1.0 + SAME)))
+    return np.asarray(np.union1d(output * np.arange(1, n + 1), [times.t_end]))

@@ -168,14 +168,14 @@ class Moving(Problem):
         backend.add_entries(A, *self.entries(r, r, mass))
         backend.add_entries(A, *self.entries(q, q, twice * self._turning()))
         if self._drag is not None:
-            self._add_drag(A)
+            self._add_drag(A, self._drag)
         A.assemble()
 
-    def _add_drag(self, A: PETSc.Mat) -> None:
+    def _add_drag(self, A: PETSc.Mat, drag: Drag) -> None:
         """Tangent of the air's force."""
         r, q = self.lumped.r, self.lumped.q
         at = self.x if self.scheme.level == 1.0 else self._between(self.x, unit=True)
-        by_rate, by_q = self._drag.gradient(at[r], at[q], self._rate(), self.t)
+        by_rate, by_q = drag.gradient(at[r], at[q], self._rate(), self.t)
         backend.add_entries(A, *self.entries(r, r, -by_rate / self.h))
         backend.add_entries(A, *self.entries(r, q, -self.scheme.level * by_q))
 
@@ -196,7 +196,7 @@ class Moving(Problem):
 
     def _add_conditions(self, A: PETSc.Mat) -> None:
         """Unit norm after the step, its multiplier along the rotation before, where the form has both between."""
-        if not len(self._multipliers):
+        if self._lumped is None:
             return
         q, λ = self._unit
         before, after = self._before[q], self.x[q]

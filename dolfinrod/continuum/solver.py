@@ -60,7 +60,9 @@ def solve(
     chosen = choose(scene, kinematics)
     counts = element_counts(elements, len(scene.rods))
     if isinstance(scene.motion, Dynamic):
-        result, failure = move(scene, chosen, comm, degree, counts, progress)
+        if start is not None:
+            raise SceneError("start must be None: a scene in motion begins stress free, with its own velocities")
+        result, failure = move(scene, scene.motion, chosen, comm, degree, counts, progress)
     else:
         in_space = kinematics is None
         result, failure = _path(scene, chosen, comm, degree, counts, progress, start, in_space=in_space)

@@ -11,6 +11,7 @@ import numpy as np
 from dolfinrod.continuum.neutral import equilibrium
 from dolfinrod.continuum.stability import Verdict
 from dolfinrod.result import StepLog
+from dolfinrod.scene import Dynamic
 from dolfinrod.scene.history import kinks
 
 if TYPE_CHECKING:
@@ -114,7 +115,8 @@ def targets(scene: Scene, t_0: float, until: float = np.inf) -> list[float]:
     """Pseudo-times after t_0 that must be met: the asked-for steps, the kinks of histories and where to stop."""
     motion = scene.motion
     end = min(until, motion.t_end)
-    even = np.arange(1, (motion.steps or 1) + 1) / (motion.steps or 1) * motion.t_end
+    steps = 1 if isinstance(motion, Dynamic) else motion.steps or 1
+    even = np.arange(1, steps + 1) / steps * motion.t_end
     corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
     return sorted({float(t) for t in (*even, *corners, end) if t_0 < t <= end})
 

@@ -151,3 +151,76 @@ def test_huge_steps_of_backward_euler_end_at_rest(kinematics):
     moved = dr.solve(replace(still, motion=dr.Dynamic(t_end=4e3, dt=200.0)), kinematics=kinematics, **MESH)
     np.testing.assert_allclose(moved.rods[0].r[-1], rest.rods[0].r[-1], atol=1e-9)
     np.testing.assert_allclose(moved.rods[0].m[-1], rest.rods[0].m[-1], atol=1e-7)
+
+
+@BOTH_SCHEMES
+@both_kinematics
+def test_a_fibre_falls_as_fast_as_the_air_lets_it(kinematics, scheme):
+    """Ramie, 20 µm, level: 0.08695 m/s (process.md 2.4, drag = weight); the air takes all the weight gives."""
+    scene = dr.Scene(
+        [dr.Rod.straight(0.04, dr.Section.ramie())],
+        loads=[dr.Gravity((0.0, 0.0, -9.81))],
+        air=dr.Air(),
+        motion=dr.Dynamic(t_end=0.15, dt=0.002, scheme=scheme, output=0.15),
+    )
+    result = dr.solve(scene, kinematics=kinematics, elements=2)
+    np.testing.assert_allclose(result.rods[0].v[-1], np.tile([0.0, 0.0, -0.08695], (7, 1)), atol=5e-6)
+    gained = {name: values[-1] - values[0] for name, values in result.energy.items()}
+    assert gained["drag"] < 0.0
+    assert gained["kinetic"] + gained["potential"] == pytest.approx(gained["drag"] + gained["numerical"], rel=1e-9)
+
+
+@BOTH_SCHEMES
+def test_wind_bends_a_cantilever_the_same_in_any_pose(scheme):
+    def tip(pose: Pose) -> np.ndarray:
+        section = dr.Section.circle(diameter=20e-6, E=34e9, G=1.6e9, density=1540.0)
+        scene = dr.Scene(
+            [pose.straight(section, length=0.01)],
+            [dr.Clamp("start")],
+            air=dr.Air(field=lambda x, t: np.tile(pose.turned((0.0, 3.0, 1.0)), (len(x), 1))),
+            motion=dr.Dynamic(t_end=2e-3, dt=1e-4, scheme=scheme, output=2e-3),
+        )
+        return pose.back(dr.solve(scene, **MESH).tip)
+
+    blown = tip(FLAT)
+    assert blown[1] > 1e-4
+    np.testing.assert_allclose(tip(SKEW), blown, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("tol", [1e-4, 1e-6])
+def test_steps_of_free_length_follow_the_tolerance(tol):
+    """A hundredth of the tolerance is a hundredth of the error, within a factor of ten; few steps do."""
+    tip = np.array([0.9063091847993885, 0.34982239512781893])
+    motion = dr.Dynamic(t_end=0.4, tol=tol, scheme=dr.Midpoint(), output=0.4)
+    result = dr.solve(pushed(FLAT, motion), kinematics=dr.Planar((0, 0, 1)), elements=6, degree=4)
+    assert np.abs(FLAT.back(result.tip)[:2] - tip).max() <= 10.0 * tol
+    assert len(result.log) <= 100
+
+
+def test_an_interrupted_run_keeps_what_it_reached():
+    def stop(step: dr.StepLog, _t_end: float) -> None:
+        if step.t > 0.05:
+            raise KeyboardInterrupt
+
+    with pytest.raises(dr.NotConverged, match="interrupted by the user") as caught:
+        dr.solve(thrown(dr.Dynamic(t_end=0.2, dt=0.01)), progress=stop, **MESH)
+    assert caught.value.result.t[-1] == pytest.approx(0.05)
+    assert not caught.value.result.converged
+
+
+@pytest.mark.parametrize(
+    ("scene", "words"),
+    [
+        (
+            dr.Scene(
+                [FLAT.straight(dr.Section(EA=1.0, GA=1.0, GJ=1.0, EI=1.0, rhoA=1.0, rhoI=(1, 1, 1), damping=0.1))],
+                motion=dr.Dynamic(t_end=1.0, dt=0.1),
+            ),
+            "section.damping must be 0 s",
+        ),
+    ],
+    ids=["damping"],
+)
+def test_what_is_not_there_yet_is_refused(scene, words):
+    with pytest.raises(dr.SceneError, match=words):
+        dr.solve(scene, **MESH)
