@@ -42,8 +42,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Judge", "Verdict", "judging"]
 
-# Motions whose ω² lies below this, in EI/(ρA L⁴), cost nothing but round-off, as when a round rod turns about its own
-# bent axis: they count as stable.
+# Motions whose ω² lies below this, in EI/(ρA L⁴) of the softest way to bend or twist a rod, cost nothing but round-off,
+# as when a round rod turns about its own bent axis: they count as stable.
 NEUTRAL = 1e-6
 # Eigenvalues looked at where loads have no potential.
 FEW = 4
@@ -154,7 +154,9 @@ class Judge:
         d, (rhoA, rhoI) = self._problem.discretization, self._densities
         if self._lift is None:
             self._lift = A.createVecLeft()
-            self._least = NEUTRAL * self._shared(rhoA, np.maximum(rhoI, ALIKE * rhoA))[: d.n_owned]
+            softest = min(min(*rod.section.EI, rod.section.GJ) for rod in self._problem.scene.rods)
+            least = NEUTRAL * softest / self._problem.placement.stiffness
+            self._least = least * self._shared(rhoA, np.maximum(rhoI, ALIKE * rhoA))[: d.n_owned]
         self._lift.array[:] = self._least
         q = d.owned_nodes("q")
         # A moment M adds up to 4 M to the stiffness against a change of quaternion, which turns by twice its size.

@@ -175,3 +175,12 @@ def test_what_costs_nothing_is_no_instability(kinematics, elements):
 def test_ten_thousand_elements_are_judged_right(factor):
     log = dr.solve(column(RIGID, factor * EULER), elements=10_000, kinematics=dr.Planar((0.0, 0.0, 1.0))).log
     assert log[-1].stable == (factor < 1.0)
+
+
+@pytest.mark.parametrize(("factor", "lost"), [(0.995, 0), (1.005, 1)])
+def test_the_stiffest_strip_is_judged_by_its_soft_side(factor, lost):
+    """Prandtl's strip: P L²/√(EI₂ GJ) = 4.0125985 (I1), EI₃ = 1e8 EI₂."""
+    section = dr.Section(GJ=1.0, EI=(1.0, 1e8), rigid={"shear", "extension"})
+    load = dr.PointForce((0.0, -4.0125985 * factor, 0.0), at="end")
+    log = dr.solve(dr.Scene([straight(section)], [dr.Clamp("start")], [load])).log
+    assert log[-1].unstable_directions == lost

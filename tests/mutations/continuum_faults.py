@@ -6,11 +6,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from petsc4py import PETSc
+
 import numpy as np
 
 import dolfinrod as dr
 from dolfinrod.continuum import constraints, loading, problem, quaternion, recovery, reference
 from dolfinrod.continuum.discretization import Discretization
+from dolfinrod.continuum.newton import Newton
 from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
@@ -47,6 +50,13 @@ def _reference_kept(right: Any, self: Problem, t: float) -> None:
     right(self, t)
     if "multiplier" in self.discretization.dofs:
         self.kept = self.x[self.discretization.owned_nodes("q")].copy()
+
+
+def _taken_whole(_right: Any, self: Newton, X: PETSc.Vec) -> None:
+    """Takes the multipliers from SNES like any unknown."""
+    X.ghostUpdate(PETSc.InsertMode.INSERT, PETSc.ScatterMode.FORWARD)
+    with X.localForm() as x:
+        self.problem.x[:] = x.array_r
 
 
 def _balanced_along_the_kept(_right: Any, self: Problem, b: Array) -> None:
@@ -115,7 +125,10 @@ COMPLIANCE_TURNED_BACK = replaced(Problem, "_set_values", _compliance_turned_bac
 FRAMES_R_0_LEFT = replaced(
     SpatialRods, "turned_frames", lambda f, self, q, axes, R_0: R_0 @ f(self, q, axes, 0.0 * R_0 + np.eye(3))
 )
-MULTIPLIER_KEPT = replaced(Problem, "balance_multipliers", lambda _f, _self, _b: None)
+MULTIPLIER_KEPT = all_of(
+    replaced(Problem, "balance_multipliers", lambda _f, _self, _b: None),
+    replaced(Newton, "_take", _taken_whole),
+)
 GAUGE_KEPT = all_of(
     replaced(Problem, "advance_to", _reference_kept),
     replaced(Problem, "balance_multipliers", _balanced_along_the_kept),

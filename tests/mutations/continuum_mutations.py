@@ -37,7 +37,7 @@ MUTATIONS = (
         "gauge kept from the last step, normal",
         "multipliers balance the residual along the quaternions of the last step",
         "spatial",
-        "number of steps",
+        "quadratic convergence of the roll-up",
         c.GAUGE_KEPT,
     ),
     Mutation("quaternion not normalised", "a turn is added, p + δp", "spatial", "orthonormal frames", c.NOT_NORMALISED),
