@@ -104,14 +104,6 @@ def sum_over_ranks(f: fem.Function) -> None:
     f.x.scatter_forward()
 
 
-def summed(space_: fem.FunctionSpace, local: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What all ranks have put on each dof, added up."""
-    f = function(space_)
-    f.x.array[:] = local
-    sum_over_ranks(f)
-    return np.asarray(f.x.array.copy())
-
-
 def cell_dofs(space_: fem.FunctionSpace, field: int | None = None) -> NDArray[np.int32]:
     """Local degrees of freedom of a vector field by cell, node and component.
 

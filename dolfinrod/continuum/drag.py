@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.continuum import backend, reference
+from dolfinrod.continuum import reference
+from dolfinrod.continuum.lumped import summed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,7 +38,7 @@ class Drag:
         local = np.zeros(len(problem.x))
         np.add.at(local, at, np.diff(problem.ends[mine], axis=1) * reference.node_weights(d.degree))
         nodes = problem.lumped.r[:, 0]
-        self._share = backend.summed(d.space, local)[nodes] * (place.length / place.force)
+        self._share = summed(problem, local)[nodes] * (place.length / place.force)
         diameter, axis = np.zeros(len(problem.x)), np.zeros((len(problem.x), 3))
         everywhere = d.dofs["r"][:, :, 0]
         diameter[everywhere] = 2.0 * np.array([rod.section.radius for rod in problem.scene.rods])[problem.rod][:, None]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from dolfinrod.continuum.ahead import critical_ahead
 from dolfinrod.continuum.neutral import UNBALANCED
+from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.scene.advice import Findings
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def findings(readout: Readout, path: Path, failure: StepFailed) -> Findings:
     """
     problem, t = readout.problem, path.t[-1]
     readout.restore(path.states[-1])
-    turned = problem.largest_turn_between_nodes()
+    turned = largest_turn_between_nodes(problem)
     critical = critical_ahead(readout, path.states[-1], t) if path.log else float("inf")
     near = critical - t < CLOSE * problem.scene.motion.t_end
     return Findings(

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Lumped"]
+__all__ = ["Lumped", "summed"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,14 +60,12 @@ class Lumped:
         j = (rhoI / rhoA.max() / place.length**2)[rod]
         J = np.einsum("ca,caij,cj,cakj->caik", weight, axes, j, axes)
         r, q = d.owned_nodes("r"), d.owned_nodes("q")
-        summed = backend.function(d.space)
         first = d.dofs["r"][mine][:, :, 0], d.dofs["q"][mine][:, :, 0]
 
         def gathered(at: NDArray[np.int32], values: Array, nodes: NDArray[np.int32]) -> Array:
-            summed.x.array[:] = 0.0
-            np.add.at(summed.x.array, at, values)
-            backend.sum_over_ranks(summed)
-            return summed.x.array[nodes[:, 0]].copy()
+            local = np.zeros(len(problem.x))
+            np.add.at(local, at, values)
+            return summed(problem, local)[nodes[:, 0]]
 
         m = gathered(first[0], weight * (rhoA / rhoA.max())[rod][:, None], r)
         n_spin = J.shape[-1]
@@ -75,3 +73,11 @@ class Lumped:
         second = float(np.sqrt(rhoA.max() * place.length**4 / place.stiffness))
         J_nodes = np.moveaxis(np.array(entries), 2, 0)
         return cls(r, q, m, J_nodes, np.linalg.pinv(J_nodes, hermitian=True), second)
+
+
+def summed(problem: Problem, local: Array) -> Array:
+    """What all ranks have put on each dof, added up."""
+    f = backend.function(problem.discretization.space)
+    f.x.array[:] = local
+    backend.sum_over_ranks(f)
+    return np.asarray(f.x.array.copy())

@@ -10,7 +10,7 @@ import numpy as np
 
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.drag import Drag
-from dolfinrod.continuum.lumped import Lumped
+from dolfinrod.continuum.lumped import Lumped, summed
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.schemes import momentum
@@ -54,7 +54,7 @@ class Moving(Problem):
         self._before, self._start = self.x.copy(), self.motion
         lines = [load for load in scene.loads if isinstance(load, Gravity | LineForce)]
         self._weights = [
-            backend.summed(discretization.space, vector)
+            summed(self, vector)
             for load, (history, vector) in zip(lines, self.line_loads, strict=True)
             if isinstance(load, Gravity) and isinstance(history, Steady)
         ]

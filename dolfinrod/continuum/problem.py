@@ -203,14 +203,6 @@ class Problem:
         skew = free - np.swapaxes(free, 1, 2) if np.array_equal(rows, columns) else free
         return bool(np.abs(skew).max(initial=0.0) <= ROUND_OFF * np.abs(blocks).max(initial=0.0))
 
-    def largest_turn_between_nodes(self) -> float:
-        """Largest turn of a node against its neighbour in the same element [rad], over all ranks."""
-        d = self.discretization
-        q = self.x[d.dofs["q"]][:, np.argsort(d.nodes)]
-        pairs = (q[:, 1:].reshape(-1, q.shape[2]), q[:, :-1].reshape(-1, q.shape[2]))
-        largest = float(self.kinematics.turn_between(*pairs).max(initial=0.0))
-        return float(d.comm.allreduce(largest, op=MPI.MAX))
-
     def clear_held(self, b: NDArray[np.float64]) -> None:
         """Zero the rows of held dofs, which the state meets already; what the ones of `hold` need is kept."""
         self.held_force = b[self._extra]

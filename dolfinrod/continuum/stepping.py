@@ -10,6 +10,7 @@ import numpy as np
 
 from dolfinrod.continuum.neutral import equilibrium
 from dolfinrod.continuum.stability import Verdict
+from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.result import StepLog
 from dolfinrod.scene import Dynamic
 from dolfinrod.scene.history import kinks
@@ -181,7 +182,7 @@ class Walk:
         self._readout.restore(path.states[-1])
         self._stride.fail(tried)
         if self._stride.length <= interval / 2 ** (MOST_CUTS + 1):
-            turn = problem.largest_turn_between_nodes()
+            turn = largest_turn_between_nodes(problem)
             coarse = turn > BLURRED
             reason = COARSE.format(turn) if coarse else outcome.reason
             raise StepFailed(t=t, step=tried, reason=reason, coarse=coarse)
@@ -198,7 +199,7 @@ class Walk:
         outcome = equilibrium(self.newton, self._phase, last)
         if not outcome.converged:
             return outcome, None, None
-        turn = problem.largest_turn_between_nodes()
+        turn = largest_turn_between_nodes(problem)
         if turn > ALIASED:
             return replace(outcome, converged=False, reason=COARSE.format(turn)), None, None
         state = self._readout.state()

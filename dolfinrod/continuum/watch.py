@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Watch"]
+__all__ = ["Watch", "largest_turn_between_nodes"]
 
 # Sections that turned this far in all beyond where they got [rad] are lost: what leads somewhere turns one way.
 LARGEST_DETOUR = 8.0
@@ -72,3 +72,12 @@ class Watch:
         largest = np.array([np.abs(v).max(initial=0.0) for v in values])
         self._comm.Allreduce(MPI.IN_PLACE, largest, op=MPI.MAX)
         return largest
+
+
+def largest_turn_between_nodes(problem: Problem) -> float:
+    """Largest turn of a node against its neighbour in the same element [rad], over all ranks."""
+    d = problem.discretization
+    q = problem.x[d.dofs["q"]][:, np.argsort(d.nodes)]
+    pairs = (q[:, 1:].reshape(-1, q.shape[2]), q[:, :-1].reshape(-1, q.shape[2]))
+    largest = float(problem.kinematics.turn_between(*pairs).max(initial=0.0))
+    return float(d.comm.allreduce(largest, op=MPI.MAX))

@@ -177,7 +177,7 @@ def test_wind_bends_a_cantilever_the_same_in_any_pose(scheme):
         scene = dr.Scene(
             [pose.straight(section, length=0.01)],
             [dr.Clamp("start")],
-            air=dr.Air(field=lambda x, t: np.tile(pose.turned((0.0, 3.0, 1.0)), (len(x), 1))),
+            air=dr.Air(field=lambda x, _t: np.tile(pose.turned((0.0, 3.0, 1.0)), (len(x), 1))),
             motion=dr.Dynamic(t_end=2e-3, dt=1e-4, scheme=scheme, output=2e-3),
         )
         return pose.back(dr.solve(scene, **MESH).tip)
