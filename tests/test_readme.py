@@ -69,3 +69,20 @@ def test_stability_example_prints_what_its_comments_say():
     assert float(critical) == pytest.approx(2.460338954539246, rel=1e-7)
     assert np.array(re.findall(NUMBER, linearised), dtype=float) * 10.0 == pytest.approx([2.46, 2.46], abs=0.01)
     assert len(set(re.findall(NUMBER, frequencies))) == 1
+
+
+def test_motion_example_prints_what_its_comments_say():
+    """The fibre falls and is blown downwards; its ledger closes."""
+    section = README.split("## Motion in time")[1].split("\n## ")[0]
+    (example,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
+    names: dict[str, object] = {"dr": dr}
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        exec(compile(example, "README.md", "exec"), names)
+    t, *tip, _, v_y, _ = (float(number) for number in re.findall(NUMBER, printed.getvalue().splitlines()[0]))
+    assert t == pytest.approx(0.01)
+    assert tip == pytest.approx(names["result"].tip)
+    assert v_y < -0.1
+    energy = names["result"].energy
+    gained = sum(energy[name] - energy[name][0] for name in ("kinetic", "strain", "potential"))
+    works = sum(energy[name] for name in ("load work", "support work", "drag", "damping", "numerical"))
+    np.testing.assert_allclose(gained, works, rtol=0, atol=1e-10 * np.abs(gained).max())
