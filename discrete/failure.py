@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from discrete.neutral import UNBALANCED
+from discrete.statics import INTERRUPTED
 from discrete.watch import ALIASED
+from dolfinrod.scene import Static
 from dolfinrod.scene.mechanism import free_motions
 
 if TYPE_CHECKING:
@@ -32,6 +34,8 @@ def advice(scene: Scene, failure: StepFailed, log: Sequence[StepLog]) -> str:
     Returns:
         Sentences without the last full stop.
     """
+    if failure.reason == INTERRUPTED:
+        return "`.result` holds what was reached; discrete.solve(scene, start=...) goes on from there"
     free = free_motions(scene)
     if free and (failure.t == 0.0 or failure.reason == UNBALANCED):
         return f"Likely a mechanism. Nothing holds the rods completely: {'; '.join(free)}. Try more supports"
@@ -54,7 +58,7 @@ def advice(scene: Scene, failure: StepFailed, log: Sequence[StepLog]) -> str:
             "are easily lost. Look at `.result` (what converged), or try a small load across the rod, which leads to a "
             "stable branch"
         )
-    steps = scene.motion.steps
+    steps = scene.motion.steps if isinstance(scene.motion, Static) else None
     return (
         f"The iteration did not settle. Try Static(steps={2 * steps if steps else 8}), more elements, or look at "
         "`.result` (what converged)"
