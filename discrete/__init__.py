@@ -1,7 +1,8 @@
-"""The paper's discrete rod: 12×12 elements between nodes with six degrees of freedom, solved statically.
+"""The paper's discrete rod: 12×12 elements between nodes with six degrees of freedom, in equilibrium or in motion.
 
 Lyu, Cheng, Xu, Modeling Additional Twists of Yarn Spun by Lateral Compact Spinning with Pneumatic Groove,
-CMES 127(2), 2021. Statics: Eq. 10–22 and 2.3.3; the masses of Eq. 1–10 for frequencies. It has no shear.
+CMES 127(2), 2021. Statics: Eq. 10–22 and 2.3.3; motion: Eq. 1–10, 23–26 and 2.3.2, implicit Euler, with
+`scene.motion = Dynamic(...)`; the same masses for frequencies. It has no shear.
 
     import discrete
     result = discrete.solve(scene, elements=80)
@@ -26,6 +27,8 @@ Symbols of the paper, kept here, and the names they have in `dolfinrod`:
     δ_e (20, 21)            deformation(e, A_i, A_j, l_0)             –
     [k*], [k] (15-19)       stiffness(...), tᵀ k* t                   –
     {P}, {Q} (25, 26)       scatter(force, ...), LoadLevel            internal and external forces
+    [m]{a} (4, 26)          Inertia.force, m (v₁ − v₀)/Δt             ρA r̈
+    {R} (4, 26)             Inertia.moment, with J α                  ρI ω̇ + ω × ρI ω
     J, J* (9, 10)           inertia(J_star, A)                        Section.rhoI, per length
     ======================  ========================================  ==========================================
 

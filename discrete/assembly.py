@@ -164,6 +164,10 @@ def scatter(force: Array, node_i: Indices, n_nodes: int) -> Array:
         Sum, shape (n_nodes, 7).
     """
     total = np.zeros((n_nodes, N_NODE))
+    if len(node_i) == n_nodes - 1:
+        total[:-1] = force[:, :N_NODE]
+        total[1:, :AXIAL] += force[:, N_NODE:]
+        return total
     total[node_i] = force[:, :N_NODE]
     # A node ends at most one element, so no index occurs twice.
     total[node_i + 1, :AXIAL] += force[:, N_NODE:]
@@ -181,6 +185,9 @@ def gather(unknowns: Array, node_i: Indices) -> Array:
         (x_i, ω_i, F_n, x_j, ω_j), shape (n, 13).
     """
     own = np.empty((len(node_i), N_ELEMENT))
+    if len(node_i) == len(unknowns) - 1:
+        own[:, :N_NODE], own[:, N_NODE:] = unknowns[:-1], unknowns[1:, :AXIAL]
+        return own
     own[:, :N_NODE] = unknowns[node_i]
     own[:, N_NODE:] = unknowns[node_i + 1, :AXIAL]
     return own

@@ -95,10 +95,25 @@ class ChordElement:
         f[:, 1, 0] = F_n
         return self._turned(frame, f, E, F_n), self._tangent(frame, spin, f, Θ, N, E)
 
+    def strains(self, e: Array, E: Array) -> tuple[Array, Array]:
+        """Rotations of the ends relative to the element, shape (n, 2, 3), and elongations; arguments as `measure`."""
+        frame = element_frame(e, E)
+        return log(frame.turned), self._reach(frame, E) - self._l_0
+
+    def moments(self, θ: Array) -> Array:
+        """Moments k θ that go with rotations of the ends, shape (n, 2, 3)."""
+        return np.matmul(self._k, θ.reshape(-1, 6, 1)).reshape(θ.shape)
+
     def _bent(self, frame: ElementFrame) -> tuple[Array, Array]:
-        """Rotations of the ends relative to the element, and the moments k θ, shapes (n, 2, 3)."""
+        """Rotations of the ends relative to the element, and the moments that go with them, shapes (n, 2, 3)."""
         θ = log(frame.turned)
-        return θ, np.matmul(self._k, θ.reshape(-1, 6, 1)).reshape(θ.shape)
+        return θ, self.moments(θ)
+
+    def _reach(self, frame: ElementFrame, E: Array) -> Array:
+        """Length that the elongation is measured from, shape (n,)."""
+        if not self._paper_strain:
+            return frame.length
+        return frame.length * np.einsum("ni,ni->n", E[:, 0, :, 0], frame.axes[:, :, 0])
 
     def _turned(self, frame: ElementFrame, f: Array, E: Array, F_n: Array) -> Array:
         """Forces in global axes with the defect of Eq. 16 among them."""
@@ -106,10 +121,7 @@ class ChordElement:
         turned = np.matmul(f, np.swapaxes(frame.axes, 1, 2))
         force[:, SPIN_I], force[:, X_J], force[:, SPIN_J] = turned[:, 0], turned[:, 1], turned[:, 2]
         force[:, X_I] = -turned[:, 1]
-        reach = frame.length
-        if self._paper_strain:
-            reach = reach * np.einsum("ni,ni->n", E[:, 0, :, 0], frame.axes[:, :, 0])
-        force[:, AXIAL] = reach - self._l_0 - self._compliance * F_n
+        force[:, AXIAL] = self._reach(frame, E) - self._l_0 - self._compliance * F_n
         return force
 
     def _tangent(self, frame: ElementFrame, spin: _Spin, f: Array, Θ: Array, N: Array, E: Array) -> Array:

@@ -63,7 +63,7 @@ def buckling(scene: Scene, *, modes: int = 3, at: Result | None = None, elements
     """
     n = count(modes, "modes", MOST_MODES)
     session = Session(scene, elements, at)
-    if not varies(scene, session.t):
+    if not varies(session.scene, session.t):
         raise SceneError(f"nothing varies with the pseudo-time from t = {session.t:g} on: no load becomes critical")
     return next_critical(session, n)
 

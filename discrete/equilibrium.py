@@ -22,7 +22,7 @@ import numpy as np
 
 from discrete.assembly import SingularTangentError, gather, scatter
 from discrete.nodes import NodalSystem
-from discrete.record import Snapshot
+from discrete.record import Snapshot, evenly
 from discrete.rotation import cross, exp
 from discrete.state import Outcome, State
 from discrete.unknowns import SPIN, SPIN_I, SPIN_J, X_I, X_J, X
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Element", "Equilibrium"]
+__all__ = ["LARGEST_TURN", "Element", "Equilibrium", "chord_spin"]
 
 # Largest turn of a section or chord in one iteration [rad].
 LARGEST_TURN = 1.5
@@ -98,7 +98,7 @@ class Equilibrium:
         E = self.mesh.elements.triads(state.R)
         e = self.element.chord(state.u, E, state.F_n)
         force, energy = self.element.measure(e, E, state.F_n)
-        return Snapshot(t, state.x, state.R, force, self.loads.level(t).line, float(energy.sum()))
+        return Snapshot(t, state.x, state.R, force, evenly(self.loads.level(t).line), float(energy.sum()))
 
     def find(self, state: State, t: float, trust: float = np.inf) -> Outcome:
         """Equilibrium at a pseudo-time.
@@ -151,7 +151,7 @@ class Equilibrium:
         d, residual, worked_in = self._system.increments(tangent, missing, held, level, self.supports.guides, state.R)
         own = gather(d, node_i)
         N = force[:, X_J] + np.matmul(end, own[:, :, None])[:, :, 0]
-        spin = _chord_spin(state.u, own[:, X_J] - own[:, X_I] + gap, 0.5 * (own[:, SPIN_I] + own[:, SPIN_J]), e)
+        spin = chord_spin(state.u, own[:, X_J] - own[:, X_I] + gap, 0.5 * (own[:, SPIN_I] + own[:, SPIN_J]), e)
         new, turn, bite = self._moved(state, d, spin, N, goal)
         watch.see(bite * d[:, SPIN], new.R)
         scale = max(1.0, float(np.abs(new.F_n).max()))
@@ -205,7 +205,7 @@ def _largest(vectors: Array) -> float:
     return float(np.einsum("ni,ni->n", vectors, vectors).max())
 
 
-def _chord_spin(u: Array, change: Array, spin: Array, e: Array) -> Array:
+def chord_spin(u: Array, change: Array, spin: Array, e: Array) -> Array:
     """Spin of a chord: as its ends move across it, u×δe/L, and along it as the sections turn on the mean.
 
     The second part leaves u as it is when small; without it a large increment would turn chords and sections about

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from discrete.neutral import UNBALANCED
+from discrete.statics import INTERRUPTED
 from discrete.watch import ALIASED
 from dolfinrod.scene.advice import Findings
 from dolfinrod.scene.advice import advice as words
@@ -30,6 +31,8 @@ def advice(scene: Scene, failure: StepFailed, log: Sequence[StepLog]) -> str:
     Returns:
         Sentences without the last full stop.
     """
+    if failure.reason == INTERRUPTED:
+        return "`.result` holds what was reached; discrete.solve(scene, start=...) goes on from there"
     found = Findings(
         t=failure.t,
         pushed=failure.reason == UNBALANCED,

@@ -19,7 +19,7 @@ from discrete.assembly import gather, scatter
 from discrete.element import stiffness
 from discrete.frames import direction_cosines, element_frame, transformation
 from discrete.nodes import NodalSystem
-from discrete.record import Snapshot
+from discrete.record import Snapshot, evenly
 from discrete.rotation import exp
 from discrete.unknowns import AXIAL, N_ELEMENT, SPIN, X
 
@@ -116,7 +116,7 @@ class Increments:
 
     def snapshot(self, state: Carried, t: float) -> Snapshot:
         """What is kept of a state."""
-        return Snapshot(t, state.x, state.R, self.forces(state), self._loads.level(t).line, self._energy(state))
+        return Snapshot(t, state.x, state.R, self.forces(state), evenly(self._loads.level(t).line), self._energy(state))
 
     def _axes(self, x: Array, R: Array) -> Array:
         """Axes of the elements, columns, shape (n, 3, 3)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -80,6 +80,7 @@ class Loads:
     mesh: Mesh
     followed: Indices = field(init=False)
     _acts: list[Callable[[LoadLevel, float], None]] = field(init=False, default_factory=list)
+    _last: tuple[list[float], LoadLevel] | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         follow = [part for part in self.scene.loads if isinstance(part, (FollowerForce, FollowerMoment))]
@@ -88,16 +89,23 @@ class Loads:
             self._add(load)
 
     def level(self, t: float) -> LoadLevel:
-        """Loads at a pseudo-time, in the units of the model."""
+        """Loads at a pseudo-time, in the units of the model; the same record as long as no factor changes."""
+        t_end = self.scene.motion.t_end
+        factors = [factor(load.history, t, t_end) for load in self.scene.loads]
+        if self._last is None or self._last[0] != factors:
+            self._last = factors, self._level(factors)
+        return self._last[1]
+
+    def _level(self, factors: Sequence[float]) -> LoadLevel:
+        """Loads of given factors."""
         level = LoadLevel(
             dead=np.zeros((len(self.mesh.x), N_NODE)),
             line=np.zeros((len(self.mesh.elements.l), 3)),
             followed=self.followed,
             follower=np.zeros((len(self.followed), 2, 3)),
         )
-        t_end = self.scene.motion.t_end
-        for load, act in zip(self.scene.loads, self._acts, strict=True):
-            act(level, factor(load.history, t, t_end))
+        for f, act in zip(factors, self._acts, strict=True):
+            act(level, f)
         node_i = self.mesh.elements.node_i
         level.dead[node_i, X] += 0.5 * level.line
         level.dead[node_i + 1, X] += 0.5 * level.line

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Snapshot", "histories", "recorded"]
+__all__ = ["Snapshot", "evenly", "histories", "recorded"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,16 +37,27 @@ class Snapshot:
         x: Positions of the nodes, shape (n_nodes, 3).
         R: Section frames, shape (n_nodes, 3, 3).
         force: End forces of the elements, global axes, shape (n, 13).
-        line: Dead force on each element, shape (n, 3).
+        halves: Force on the half of each element at either end, that of inertia included, shape (n, 2, 3).
         energy: Strain energy.
+        v: Velocities of the nodes, shape (n_nodes, 3); None in statics.
+        ω: Angular velocities in global axes, shape (n_nodes, 3); None in statics.
+        elastic: The end forces without those of damping; None where there is none.
     """
 
     t: float
     x: Array
     R: Array
     force: Array
-    line: Array
+    halves: Array
     energy: float
+    v: Array | None = None
+    ω: Array | None = None
+    elastic: Array | None = None
+
+
+def evenly(line: Array) -> Array:
+    """Halves of forces on elements, shape (n, 2, 3)."""
+    return np.repeat(0.5 * line[:, None], 2, axis=1)
 
 
 def recorded(
@@ -110,9 +121,13 @@ def histories(mesh: Mesh, sections: Sequence[Section], path: Sequence[Snapshot])
     Returns:
         Histories in SI units.
     """
-    n, m = _resultants(mesh, path)
-    r = np.stack([state.x for state in path]) * mesh.units.length + mesh.origin
     R = np.stack([state.R for state in path])
+    n, m = _resultants(mesh, R, [state.force for state in path], path)
+    γ, κ = n, m
+    if any(state.elastic is not None for state in path):
+        γ, κ = _resultants(mesh, R, [state.force if state.elastic is None else state.elastic for state in path], path)
+    r = np.stack([state.x for state in path]) * mesh.units.length + mesh.origin
+    v, ω = (_velocities(values) for values in ([state.v for state in path], [state.ω for state in path]))
     rods = []
     for j, section in enumerate(sections):
         own = slice(mesh.first[j], mesh.first[j + 1])
@@ -121,31 +136,37 @@ def histories(mesh: Mesh, sections: Sequence[Section], path: Sequence[Snapshot])
                 s=mesh.s[j],
                 r=r[:, own],
                 frames=R[:, own],
-                gamma=n[:, own] * (section.compliance_n[0], 0.0, 0.0),
-                kappa=m[:, own] * np.array(section.compliance_m),
+                gamma=γ[:, own] * (section.compliance_n[0], 0.0, 0.0),
+                kappa=κ[:, own] * np.array(section.compliance_m),
                 n=n[:, own],
                 m=m[:, own],
+                v=None if v is None else v[:, own] * mesh.units.length,
+                omega=None if ω is None else ω[:, own],
             )
         )
     return tuple(rods)
 
 
-def _resultants(mesh: Mesh, path: Sequence[Snapshot]) -> tuple[Array, Array]:
+def _velocities(values: Sequence[Array | None]) -> Array | None:
+    """Values of all states, None where there are none."""
+    known = [value for value in values if value is not None]
+    return np.stack(known) if known else None
+
+
+def _resultants(mesh: Mesh, R: Array, forces: Sequence[Array], path: Sequence[Snapshot]) -> tuple[Array, Array]:
     """Forces and moments in the section frames, averaged over the elements at a node, shapes (n_t, n_nodes, 3).
 
-    The force of an element is that at its middle; the line load of half of it lies between there and its ends.
+    The force of an element is that at its middle; what acts on half of it lies between there and its ends.
     """
     node_i = mesh.elements.node_i
-    force = np.stack([state.force for state in path])
-    half = 0.5 * np.stack([state.line for state in path])
-    N = force[..., X_J]
+    force, halves = np.stack(forces), np.stack([state.halves for state in path])
+    N, at_i, at_j = force[..., X_J], halves[..., 0, :], halves[..., 1, :]
     shape = (len(path), len(mesh.x), 3)
     n, m, count = np.zeros(shape), np.zeros(shape), np.zeros(len(mesh.x))
-    for nodes, N_end, M_end in ((node_i, N + half, -force[..., SPIN_I]), (node_i + 1, N - half, force[..., SPIN_J])):
+    for nodes, N_end, M_end in ((node_i, N + at_i, -force[..., SPIN_I]), (node_i + 1, N - at_j, force[..., SPIN_J])):
         n[:, nodes] += N_end
         m[:, nodes] += M_end
         count[nodes] += 1.0
-    R = np.stack([state.R for state in path])
     local = np.einsum("tkji,tkj->tki", R, n), np.einsum("tkji,tkj->tki", R, m)
     share = 1.0 / count[None, :, None]
     return local[0] * share * mesh.units.force, local[1] * share * mesh.units.moment

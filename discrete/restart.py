@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from discrete.moving import Moving
 from discrete.state import State
 from dolfinrod.scene import SceneError
 
@@ -18,7 +20,9 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["restored", "stored"]
+__all__ = ["moving_on", "restored", "stored", "stored_motion"]
+
+_TREND = ("a", "alpha", "F_n_rate")
 
 
 def stored(state: State, mesh: Mesh) -> dict[str, Array]:
@@ -66,4 +70,57 @@ def restored(arrays: Mapping[str, Array], reference: State, mesh: Mesh) -> State
         u=arrays["u"],
         F_n=arrays["F_n"] / mesh.units.force,
         factors=arrays["factors"] if same else reference.factors,
+    )
+
+
+def stored_motion(state: Moving, step: float, mesh: Mesh) -> dict[str, Array]:
+    """State of a motion as arrays in SI units.
+
+    Args:
+        state: Configuration and velocities.
+        step: Length of the next step [s].
+        mesh: Its mesh.
+
+    Returns:
+        What `stored` keeps, with velocities, their rates, sums of turns and the next step.
+    """
+    node_i, L = mesh.elements.node_i, mesh.units.length
+    e = state.x[node_i + 1] - state.x[node_i]
+    u = e / np.linalg.norm(e, axis=1)[:, None]
+    arrays = stored(State(state.x, state.R, u, state.F_n, state.factors), mesh)
+    arrays |= {"v": state.v * L, "omega": state.ω, "theta": state.θ, "step": np.array(step)}
+    if state.trend is not None:
+        units = (L, 1.0, mesh.units.force)
+        arrays |= {name: rate * unit for name, rate, unit in zip(_TREND, state.trend, units, strict=True)}
+    return arrays
+
+
+def moving_on(arrays: Mapping[str, Array], begin: Moving, mesh: Mesh, t: float | None) -> Moving:
+    """State of a motion that goes on from a result.
+
+    Args:
+        arrays: What `stored` or `stored_motion` returned.
+        begin: The first state of the scene.
+        mesh: Its mesh.
+        t: Time that the result had reached in the same scene; None: only its shape is taken over, from which the
+            motion begins with the velocities of the scene.
+
+    Returns:
+        The state.
+
+    Raises:
+        SceneError: The arrays are of another model or mesh.
+    """
+    node_i = mesh.elements.node_i
+    reference = State(begin.x, begin.R, np.zeros((len(node_i), 3)), begin.F_n, begin.factors)
+    state = restored(arrays, reference, mesh)
+    shaped = replace(begin, x=state.x, R=state.R, F_n=state.F_n)
+    if t is None or "v" not in arrays:
+        return shaped
+    L = mesh.units.length
+    trend = None
+    if all(name in arrays for name in _TREND):
+        trend = arrays["a"] / L, arrays["alpha"], arrays["F_n_rate"] / mesh.units.force
+    return replace(
+        shaped, t=t, v=arrays["v"] / L, ω=arrays["omega"], θ=arrays["theta"], factors=state.factors, trend=trend
     )

@@ -9,10 +9,12 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["cross", "exp", "log", "skew", "tangents"]
+__all__ = ["cross", "eta", "exp", "log", "rate", "skew", "tangents"]
 
 # Below this angle [rad] the coefficients are summed as series: the closed forms cancel there.
 _SMALL = 0.5
+# Below this square of the angle three terms are as good as all.
+_TINY = 1e-3
 _IDENTITY = np.eye(3)
 # η = Σ |B_2k| φ^(2k−2)/(2k)! with the Bernoulli numbers B_2k; its slope over φ term by term.
 _ETA = (1 / 12, 1 / 720, 1 / 30240, 1 / 1209600, 1 / 47900160, 691 / 1307674368000, 1 / 74724249600)
@@ -66,13 +68,14 @@ def exp(theta: NDArray[np.float64]) -> NDArray[np.float64]:
     Returns:
         Rotation matrices, shape (..., 3, 3).
     """
-    half = 0.5 * np.sqrt(np.einsum("...i,...i->...", theta, theta))
-    sinc_half = np.sinc(half / np.pi)
-    matrix = skew(theta)
-    square = matrix @ matrix
-    matrix *= (sinc_half * np.cos(half))[..., None, None]
-    matrix += (0.5 * sinc_half**2)[..., None, None] * square
-    matrix += _IDENTITY
+    square = np.einsum("...i,...i->...", theta, theta)
+    half = 0.5 * np.sqrt(square)
+    # sin x/x → 1 as x → 0: the tiny number only keeps 0/0 out.
+    sinc_half = (np.sin(half) + 1e-300) / (half + 1e-300)
+    quadratic = 0.5 * sinc_half**2
+    matrix = skew((sinc_half * np.cos(half))[..., None] * theta)
+    matrix += (quadratic[..., None] * theta)[..., :, None] * theta[..., None, :]
+    matrix += (1.0 - quadratic * square)[..., None, None] * _IDENTITY
     return matrix
 
 
@@ -122,6 +125,41 @@ def _coefficients(theta: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDAr
         closed = (angle * (angle + np.sin(angle)) - 8.0 * sine**2) / (4.0 * s**2 * sine**2)
         slope = np.where(large, closed, slope)
     return eta, slope
+
+
+def eta(square: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Coefficient η of `tangents` alone, of squared angles below (2π)²."""
+    largest = square.max(initial=0.0)
+    terms = _ETA[:3] if largest < _TINY else _ETA
+    value = square * terms[-1]
+    for e in terms[-2:0:-1]:
+        value += e
+        value *= square
+    value += terms[0]
+    if largest > _SMALL**2:
+        half = 0.5 * np.sqrt(np.maximum(square, _SMALL**2))
+        value = np.where(square > _SMALL**2, 0.25 * (1.0 - half * np.cos(half) / np.sin(half)) / half**2, value)
+    return value
+
+
+def rate(theta: NDArray[np.float64], spin: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Change of rotation vectors with spins, Θ(θ) φ = φ − ½ θ×φ + η (θ (θ·φ) − θ² φ).
+
+    Args:
+        theta: Rotation vectors, |θ| < 2π, shape (n, 3) [rad].
+        spin: Spins φ, shape (n, 3).
+
+    Returns:
+        Shape (n, 3).
+    """
+    along = np.einsum("ni,ni->n", theta, spin)[:, None]
+    square = np.einsum("ni,ni->n", theta, theta)[:, None]
+    change = theta * along
+    change -= square * spin
+    change *= eta(square)
+    change -= cross(0.5 * theta, spin)
+    change += spin
+    return change
 
 
 def tangents(

@@ -13,7 +13,7 @@ from discrete.solver import beginning
 from discrete.stability import Judge
 from discrete.statics import StepFailed
 from dolfinrod.result import NotConverged, Result, StepLog
-from dolfinrod.scene import SceneError
+from dolfinrod.scene import SceneError, in_time
 from dolfinrod.scene.door import admit
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ class Session:
             if at.scene != scene:
                 raise SceneError("at must be a result of this scene, got one of another")
             elements = [len(rod.s) - 1 for rod in at.rods]
-        self.scene = scene
+        self.scene = scene = in_time(scene)
         self._phase, self._path = beginning(scene, elements, at)
         self.equilibrium = self._phase.equilibrium
         self._judge = Judge(scene, self.equilibrium.mesh)

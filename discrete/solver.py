@@ -8,6 +8,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from discrete.corotation import ChordElement
+from discrete.dynamics import moved
+from discrete.endforces import QuickElement
 from discrete.equilibrium import Equilibrium
 from discrete.failure import advice
 from discrete.increments import Increments
@@ -19,11 +21,11 @@ from discrete.record import recorded
 from discrete.restart import restored
 from discrete.stability import Judge
 from discrete.state import State
-from discrete.statics import Path, StepFailed, stride
+from discrete.statics import INTERRUPTED, Path, StepFailed, stride
 from discrete.stepping import Walk
 from discrete.supports import Supports
 from dolfinrod.result import NotConverged, Result
-from dolfinrod.scene import SceneError
+from dolfinrod.scene import Dynamic, SceneError
 from dolfinrod.scene.door import admit
 
 if TYPE_CHECKING:
@@ -45,25 +47,28 @@ def solve(
     axial: str = "chord",
     frame: str = "element",
     equilibrium: bool = True,
+    rotation: str = "exponential",
+    end_mass: str = "half",
     progress: Progress | None = None,
     start: Result | None = None,
 ) -> Result:
-    """Equilibrium of thin rods by the paper's 12×12 elements.
+    """Equilibrium or motion of thin rods by the paper's 12×12 elements.
 
     Args:
         scene: What is posed.
         elements: Elements of each rod, one number for all or one a rod.
         axial: Elongation in Eq. 16: "chord", of the chord; "paper", along the normal of node i (Eq. 20) as printed.
-        frame: Axes of an element: "element", along the chord, transverse axes from the mean of the node triads;
-            "node_i", those of its first node as printed.
-        equilibrium: Whether to iterate to equilibrium; otherwise one linear solve a load increment (2.3.3), with
-            `Static(steps=None)` read as 100 increments. Then `axial` makes no difference: Eq. 16 acts on increments.
-        progress: Called with each accepted step and the final pseudo-time.
-        start: An earlier result on the same elements: its last state is the first guess; of the same scene, stepping
-            goes on from its last pseudo-time. Not without equilibrium iterations.
+        frame: Axes of an element: "element", the chord and the mean of the node triads; "node_i", as printed.
+        equilibrium: Whether to iterate to equilibrium; else one linear solve an increment (2.3.3), 100 in `Static()`,
+            and `axial` makes no difference: Eq. 16 acts on increments.
+        rotation: Sections in time: "exponential", R₁ = exp(Δt ω₁) R₀; "added", rotation vectors added up.
+        end_mass: Mass of end nodes in time: "half" that of others; "paper", the same, a rod too heavy by 1/n.
+        progress: Called with each accepted step and the final time or pseudo-time.
+        start: An earlier result on the same elements: its last state is the first guess, or the shape a motion begins
+            with; of the same scene, stepping goes on from its last time. Not without equilibrium iterations.
 
     Returns:
-        The states at the accepted load steps.
+        The states at the accepted load steps or output times.
 
     Raises:
         SceneError: The scene or an option cannot be solved as given.
@@ -71,9 +76,10 @@ def solve(
     """
     admit(scene, start, Result)
     _check(axial, frame, equilibrium, start)
-    started = time.perf_counter()
-    run = _prepare(scene, mesh(scene, elements), axial, frame, equilibrium, start)
-    return _followed(scene, run, time.perf_counter() - started, progress)
+    if isinstance(scene.motion, Dynamic):
+        return _moved(scene, elements, (axial, frame, rotation, end_mass), equilibrium, progress, start)
+    begun = time.perf_counter()
+    return _followed(scene, _prepare(scene, mesh(scene, elements), axial, frame, equilibrium, start), begun, progress)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,8 +137,8 @@ def _set_up(
     return PhaseCondition(method), _begin(method, scene, start)
 
 
-def _followed(scene: Scene, run: _Run, seconds_setup: float, progress: Progress | None) -> Result:
-    """Follow the loads and record what came out.
+def _followed(scene: Scene, run: _Run, begun: float, progress: Progress | None) -> Result:
+    """Follow the loads and record what came out of what was begun at a time of the clock.
 
     Raises:
         NotConverged: A load step could not be taken.
@@ -143,7 +149,9 @@ def _followed(scene: Scene, run: _Run, seconds_setup: float, progress: Progress 
         run.follow(progress)
     except StepFailed as caught:
         failure = caught
-    seconds = (seconds_setup, time.perf_counter() - started)
+    except KeyboardInterrupt:
+        failure = StepFailed(t=run.path.kept[-1].t, step=0.0, reason=INTERRUPTED)
+    seconds = (started - begun, time.perf_counter() - started)
     result = recorded(scene, run.mesh, run.path, run.notes(), seconds, converged=failure is None)
     if failure is not None:
         raise NotConverged(
@@ -168,6 +176,32 @@ def _check(axial: str, frame: str, equilibrium: bool, start: Result | None) -> N
         raise SceneError(f'frame must be "element" or "node_i", got {frame!r}')
     if start is not None and not equilibrium:
         raise SceneError("start must be None where equilibrium is False: the end forces carried along are not kept")
+
+
+def _moved(
+    scene: Scene,
+    elements: int | Sequence[int],
+    options: tuple[str, str, str, str],
+    equilibrium: bool,
+    progress: Progress | None,
+    start: Result | None,
+) -> Result:
+    """Motion in time; `axial`, `frame`, `rotation`, `end_mass` and the rest as for `solve`.
+
+    Raises:
+        SceneError: An option that is not known there.
+    """
+    chosen = dict(zip(("axial", "frame", "rotation", "end_mass"), options, strict=True))
+    for name, known in (("rotation", ("exponential", "added")), ("end_mass", ("half", "paper"))):
+        if chosen[name] not in known:
+            raise SceneError(f'{name} must be "{known[0]}" or "{known[1]}", got {chosen[name]!r}')
+    if not equilibrium:
+        raise SceneError("equilibrium must be True in a Dynamic motion: its steps are fully implicit")
+    cut = mesh(scene, elements)
+    law = _law(cut.elements, chosen["axial"], chosen["frame"])
+    if chosen["frame"] == "element":
+        law = QuickElement(cut.elements, paper_strain=chosen["axial"] == "paper")
+    return moved(scene, cut, law, chosen, progress=progress, start=start)
 
 
 def _law(elements: Elements, axial: str, frame: str) -> Element:

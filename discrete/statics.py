@@ -12,7 +12,7 @@ import numpy as np
 
 from discrete.assembly import SingularTangentError
 from dolfinrod.result import StepLog
-from dolfinrod.scene import kinks
+from dolfinrod.scene import Static, kinks
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,8 +23,10 @@ if TYPE_CHECKING:
 
     Progress = Callable[[StepLog, float], None]
 
-__all__ = ["Path", "Progress", "StepFailed", "corners", "stride", "targets"]
+__all__ = ["INTERRUPTED", "Path", "Progress", "StepFailed", "corners", "stride", "targets"]
 
+# Why a path ends that the user has stopped.
+INTERRUPTED = "interrupted by the user"
 # Increments of the paper's loading where the scene asks for no number: it wants each of them small.
 MANY = 100
 
@@ -108,6 +110,7 @@ def stride(increments: Increments, path: Path[Carried], t: float, scene: Scene, 
     Raises:
         StepFailed: Something is free to move.
     """
+    assert isinstance(scene.motion, Static)
     for target in targets(scene, t, scene.motion.steps or MANY):
         try:
             path.state, residual = increments.take(path.state, target)

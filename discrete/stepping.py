@@ -16,6 +16,7 @@ from discrete.predictor import Memory
 from discrete.statics import StepFailed, corners, targets
 from discrete.watch import Watch
 from dolfinrod.result import StepLog
+from dolfinrod.scene import Static
 
 if TYPE_CHECKING:
     from discrete.neutral import PhaseCondition
@@ -68,8 +69,9 @@ class Walk:
         Raises:
             StepFailed: A step could not be taken after `MOST_CUTS` halvings.
         """
-        kinks = corners(self._scene)
-        for target in targets(self._scene, self._memory.t, self._scene.motion.steps or 1):
+        kinks, motion = corners(self._scene), self._scene.motion
+        assert isinstance(motion, Static)
+        for target in targets(self._scene, self._memory.t, motion.steps or 1):
             self._reach(target, progress)
             if target in kinks:
                 self._memory.forget()

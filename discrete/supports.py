@@ -10,6 +10,7 @@ import numpy as np
 from discrete.rotation import exp, log, tangents
 from discrete.unknowns import N_NODE
 from dolfinrod.scene import Prescribed, factor
+from dolfinrod.scene.history import slope
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -97,6 +98,7 @@ class Supports:
 
     Attributes:
         held: Held unknowns, ascending; a guide's is the first spin in its own axes.
+        firm: Components that are held in global axes, shape (n_nodes, 6).
         turns: Prescribed rotations.
         guides: Sections with one held and two free rotations.
     """
@@ -114,6 +116,8 @@ class Supports:
         held[one, 3:] = (True, False, False)
         node, place = np.nonzero(held)
         self.held = node * N_NODE + place
+        self.firm = self._places.copy()
+        self.firm[one, 3:] = False
         self._moved = [part for part in scene.supports if isinstance(part, Prescribed)]
         self.turns = self._turns()
 
@@ -126,9 +130,7 @@ class Supports:
         Returns:
             Nodes, shape (m,), and the directions held there, shape (m, 6).
         """
-        plain = self._places.copy()
-        plain[self.guides.nodes, 3:] = False
-        node, place = np.nonzero(plain)
+        node, place = np.nonzero(self.firm)
         turned = np.zeros((len(self.guides.nodes), 6))
         turned[:, 3:] = self.guides.linearized(R)[1]
         return np.concatenate([node, self.guides.nodes]), np.concatenate([np.eye(6)[place], turned])
@@ -141,6 +143,10 @@ class Supports:
     def factors(self, t: float) -> Array:
         """Factors of all prescribed motions at a pseudo-time, shape (n_factors,)."""
         return np.array([factor(part.history, t, self._scene.motion.t_end) for part in self._moved])
+
+    def slopes(self, t: float) -> Array:
+        """Rates of all factors from a time on, shape (n_factors,)."""
+        return np.array([slope(part.history, t, self._scene.motion.t_end) for part in self._moved])
 
     def increments(self, x: Array, factors: Array, goal: Array) -> Array:
         """What is missing at the supports: displacements and spins.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from dolfinrod.scene import Spatial
+from dolfinrod.scene import Spatial, Static
 from verification.case import SKEW
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def _refined(how: Refined, scene: Callable[[], Scene]) -> Array:
     from dolfinrod.continuum import solve
 
     posed = scene()
-    stepped = replace(posed, motion=replace(posed.motion, steps=how.steps))
+    stepped = replace(posed, motion=Static(steps=how.steps, t_end=posed.motion.t_end))
     result = solve(stepped, elements=how.elements, degree=5, kinematics=Spatial())
     return np.asarray(result.rods[0].at(how.at * posed.rods[0].length)[-1])
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dolfinrod.scene import Dynamic
 from verification.case import UPRIGHT
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def lines(scene: Scene) -> Iterable[str]:
         yield f"Rod from {words(rod.centerline(0.0))} to {words(rod.centerline(rod.length))} m, {shape(rod)}"
         yield record(rod.section)
     yield from map(record, (*scene.supports, *scene.loads))
-    if scene.motion.steps is not None:
+    if isinstance(scene.motion, Dynamic) or scene.motion.steps is not None:
         yield record(scene.motion)
 
 

@@ -1,0 +1,159 @@
+"""Motion in time of the paper's rods, Eq. 26 and 2.3.2."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from discrete.damping import Damping
+from discrete.drag import Drag
+from discrete.euler import BackwardEuler
+from discrete.failure import advice
+from discrete.laws import Damped, Elastic
+from discrete.ledger import WORKS, Ledger
+from discrete.loads import Loads
+from discrete.marching import March
+from discrete.mass import node_masses
+from discrete.momentum import Inertia
+from discrete.moving import initial
+from discrete.restart import moving_on, stored_motion
+from discrete.statics import INTERRUPTED, StepFailed
+from discrete.supports import Supports
+from discrete.trajectory import Trajectory, formulation
+from dolfinrod.result import NotConverged
+from dolfinrod.scene import Dynamic, ImplicitEuler, SceneError, in_time
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from discrete.equilibrium import Element
+    from discrete.mesh import Mesh
+    from discrete.moving import Moving
+    from discrete.statics import Progress
+    from dolfinrod.result import Result
+    from dolfinrod.scene import Scene
+
+__all__ = ["moved"]
+
+PLAIN = {"axial": "chord", "frame": "element", "rotation": "exponential", "end_mass": "half"}
+
+
+def moved(
+    scene: Scene,
+    cut: Mesh,
+    law: Element,
+    chosen: Mapping[str, str],
+    *,
+    progress: Progress | None = None,
+    start: Result | None = None,
+) -> Result:
+    """Motion of a scene.
+
+    Args:
+        scene: What is posed, its motion in time.
+        cut: Its mesh.
+        law: Of the elements.
+        chosen: Options of `discrete.solve` by name.
+        progress: Called with each step and the final time.
+        start: An earlier result to go on from.
+
+    Returns:
+        The states at the output times.
+
+    Raises:
+        SceneError: The scene or an option cannot be solved as given.
+        NotConverged: A step could not be taken, or the user interrupted; carries what was reached.
+    """
+    _check(scene, chosen)
+    begun = time.perf_counter()
+    timed = in_time(scene)
+    method, laws = _method(timed, cut, law, chosen)
+    state, works = _begin(timed, scene, method, start)
+    force, strain = laws.begin(state)
+    ledger = Ledger(timed, method, state, strain, works)
+    trajectory = Trajectory(scene, method, laws, ledger, state, force, progress)
+    march = March(timed, state, lambda now, t: method.take(now, t, laws.over(t - now.t)), trajectory.accept)
+    notes = tuple(f'{name}="{value}"' for name, value in chosen.items() if value != PLAIN[name])
+    return _followed(scene, march, trajectory, (cut, notes), begun)
+
+
+def _method(scene: Scene, cut: Mesh, law: Element, chosen: Mapping[str, str]) -> tuple[BackwardEuler, Elastic | Damped]:
+    """Steps of a scene, and the laws of its elements."""
+    sections = [rod.section for rod in scene.rods]
+    inertia = Inertia(*node_masses(cut, sections, whole_ends=chosen["end_mass"] == "paper"))
+    drag = None if scene.air is None else Drag(scene.air, cut, sections)
+    added = chosen["rotation"] == "added"
+    method = BackwardEuler(cut, Loads(scene, cut), Supports(scene, cut), inertia, drag, added=added)
+    if not any(section.damping for section in sections):
+        return method, Elastic(cut, law)
+    return method, Damped(cut, Damping(cut.elements, sections, paper_strain=chosen["axial"] == "paper"))
+
+
+def _followed(
+    scene: Scene, march: March, trajectory: Trajectory, shape: tuple[Mesh, tuple[str, ...]], begun: float
+) -> Result:
+    """March and record what came out.
+
+    Raises:
+        NotConverged: The end was not reached.
+    """
+    started, failure = time.perf_counter(), None
+    try:
+        march.follow()
+    except StepFailed as caught:
+        failure = caught
+    except KeyboardInterrupt:
+        failure = StepFailed(t=march.state.t, step=march.step, reason=INTERRUPTED)
+    trajectory.finish()
+    cut, notes = shape
+    seconds = (started - begun, time.perf_counter() - started)
+    found = formulation(scene, cut, notes)
+    result = trajectory.result(found, stored_motion(march.state, march.step, cut), seconds, converged=failure is None)
+    if failure is None:
+        return result
+    raise NotConverged(
+        result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=_advice(scene, failure)
+    ) from failure
+
+
+def _begin(timed: Scene, scene: Scene, method: BackwardEuler, start: Result | None) -> tuple[Moving, dict[str, float]]:
+    """The first state and the works done before it: from rest, from the shape of a result, or where one ended."""
+    state = initial(timed, method.mesh, method.supports)
+    if start is None:
+        return state, {}
+    goes_on = start.scene == scene and float(start.t[-1]) < scene.motion.t_end
+    state = moving_on(start.state, state, method.mesh, float(start.t[-1]) if goes_on else None)
+    if not goes_on:
+        return state, {}
+    unit = method.mesh.units.moment
+    return state, {name: float(start.energy[name][-1]) / unit for name in WORKS if name in start.energy}
+
+
+def _check(scene: Scene, chosen: Mapping[str, str]) -> None:
+    """What the discrete model knows of motions in time.
+
+    Raises:
+        SceneError: Something that it does not know.
+    """
+    assert isinstance(scene.motion, Dynamic)
+    if not isinstance(scene.motion.scheme, ImplicitEuler):
+        kind = type(scene.motion.scheme).__name__
+        raise SceneError(
+            f"must be ImplicitEuler(), discrete knows ImplicitEuler only, got {kind}()", field="motion.scheme"
+        )
+    if chosen["frame"] != "element":
+        for k, rod in enumerate(scene.rods):
+            if rod.section.damping:
+                damped = f'must be 0 s where frame is "node_i", got {rod.section.damping} s'
+                raise SceneError(damped, field=f"rods[{k}].section.damping")
+
+
+def _advice(scene: Scene, failure: StepFailed) -> str:
+    """What to try against a failure."""
+    if failure.reason == INTERRUPTED:
+        return advice(scene, failure, ())
+    motion = scene.motion
+    assert isinstance(motion, Dynamic)
+    if motion.dt is not None:
+        return f"Try Dynamic(dt={motion.dt / 10:.3g}), more elements, or look at `.result` (what was reached)"
+    return "Try a smaller Dynamic.tol, more elements, or look at `.result` (what was reached)"

@@ -1,0 +1,106 @@
+"""Where the energy of a motion goes, step by step.
+
+kinetic + strain + potential − their first values = load work + support work + drag + damping + numerical.
+
+Every entry is worked out from what it names, so that the law holds as well as the steps are solved. With Δq = Δt (v, ω)
+and P the internal forces at the end of a step, the scheme loses ½ Δv·m Δv + ½ ΔΩ·J* ΔΩ of the kinetic and, for all
+strain that is convex, a positive P·Δq − ΔU of the elastic energy.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from discrete.momentum import in_body
+from discrete.unknowns import AXIAL, SPIN, X
+from dolfinrod.scene import Gravity, factor
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from discrete.euler import BackwardEuler, Taken
+    from discrete.moving import Moving
+    from dolfinrod.scene import Scene
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Ledger"]
+
+STORED = ("kinetic", "strain", "potential")
+WORKS = ("load work", "support work", "drag", "damping", "numerical")
+
+
+class Ledger:
+    """Energies and works so far, in units of the model.
+
+    Args:
+        scene: The problem.
+        method: Its steps.
+        start: The first state.
+        strain: Its strain energy.
+        works: Works done before it, by name.
+    """
+
+    def __init__(
+        self, scene: Scene, method: BackwardEuler, start: Moving, strain: float, works: Mapping[str, float]
+    ) -> None:
+        self._scene, self._method = scene, method
+        self._node_i, self._inertia = method.mesh.elements.node_i, method.inertia
+        self._origin = method.mesh.origin / method.mesh.units.length
+        self._weights = [(load, self._weight(load)) for load in scene.loads if isinstance(load, Gravity)]
+        firm = np.zeros((len(start.x), AXIAL + 1))
+        firm[:, :AXIAL] = method.supports.firm
+        self._firm, self._guided = firm, method.supports.guides.nodes
+        self.now = dict.fromkeys((*STORED, *WORKS), 0.0) | dict(works)
+        self._keep(start, in_body(start.R, start.ω), strain)
+
+    def add(self, before: Moving, step: Taken, strain: float, damped: float) -> None:
+        """Enter a step.
+
+        Args:
+            before: Where it began.
+            step: The step.
+            strain: Strain energy at its end.
+            damped: Energy that the sections have dissipated.
+        """
+        new, now = step.state, self.now
+        dt = new.t - before.t
+        moved = np.zeros_like(step.acting)
+        moved[:, X], moved[:, SPIN] = dt * new.v, dt * new.ω
+        Ω_0, Ω = in_body(before.R, before.ω), in_body(new.R, new.ω)
+        internal = float(np.vdot(step.internal, moved))
+        lost = internal - (strain - now["strain"]) - damped + self._inertia.kinetic(new.v - before.v, Ω - Ω_0)
+        answer = -step.missing
+        # A guide at rest does no work but that of its turning off the axis it held.
+        guides = float(np.vdot(answer[self._guided, SPIN], moved[self._guided, SPIN]))
+        potential = now["potential"]
+        self._keep(new, Ω, strain)
+        now["load work"] += float(np.vdot(step.acting, moved)) + now["potential"] - potential
+        now["support work"] += float(np.vdot(answer * self._firm, moved))
+        now["drag"] += float(np.vdot(step.drag, moved[:, X]))
+        now["damping"] -= damped
+        now["numerical"] += guides - lost
+
+    def _keep(self, state: Moving, Ω: Array, strain: float) -> None:
+        """Energies of a state."""
+        self.now["kinetic"] = self._inertia.kinetic(state.v, Ω)
+        self.now["strain"] = strain
+        t_end = self._scene.motion.t_end
+        self.now["potential"] = -sum(
+            (factor(load.history, state.t, t_end) * float(np.vdot(weight, state.x + self._origin)))
+            for load, weight in self._weights
+        )
+
+    def _weight(self, load: Gravity) -> Array:
+        """Weight of the nodes, shape (n_nodes, 3)."""
+        elements, units = self._method.mesh.elements, self._method.mesh.units
+        ρA = np.array([rod.section.rhoA for rod in self._scene.rods], dtype=float)[elements.rod]
+        half = 0.5 * ρA * elements.l * units.length / units.force
+        share = np.zeros(len(self._method.mesh.x))
+        share[self._node_i] = half
+        share[self._node_i + 1] += half
+        return share[:, None] * np.array(load.g)
