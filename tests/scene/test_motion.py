@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import dolfinrod as dr
 from dolfinrod.scene import SceneError, factor, in_time
-from dolfinrod.scene.mechanism import advice
+from dolfinrod.scene.advice import advice
 from tests.scenes import GENERAL
 
 ROD = dr.Rod.straight(1.0, dr.Section(EA=1.0, GA=1.0, GJ=1.0, EI=1.0, rhoA=1.0))
@@ -122,4 +122,4 @@ def test_a_resting_scene_keeps_its_proportional_loads() -> None:
     ],
 )
 def test_advice_is_about_steps_in_time_and_not_about_what_nothing_holds(motion: dr.Dynamic, words: str) -> None:
-    assert advice(dr.Scene([ROD], motion=motion)).startswith(words)
+    assert advice(dr.Scene([ROD], motion=motion), Findings(t=0.0)).startswith(words)
