@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import dolfinrod as dr
 from dolfinrod.scene import SceneError, factor, in_time
-from dolfinrod.scene.advice import advice
+from dolfinrod.scene.advice import Findings, advice
 from tests.scenes import GENERAL
 
 ROD = dr.Rod.straight(1.0, dr.Section(EA=1.0, GA=1.0, GJ=1.0, EI=1.0, rhoA=1.0))
