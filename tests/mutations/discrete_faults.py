@@ -73,19 +73,18 @@ def _whole_line_load(right: Any, self: Loads, load: Any) -> Array:
     return right(self, replace(load, between=None) if isinstance(load, dr.LineForce) else load)
 
 
-def _turned_again(right: Any, mesh: Any, path: Any) -> tuple[Array, Array]:
+def _turned_again(right: Any, mesh: Any, R: Array, forces: Any, path: Any) -> tuple[Array, Array]:
     """R in place of Rᵀ: force in the section frame is R·N."""
-    n, m = right(mesh, path)
-    R = np.stack([state.R for state in path])
+    n, m = right(mesh, R, forces, path)
     return np.einsum("tkij,tkjl,tkl->tki", R, R, n), m
 
 
-def _moment_of_i_not_turned_over(right: Any, mesh: Any, path: Any) -> tuple[Array, Array]:
+def _moment_of_i_not_turned_over(right: Any, mesh: Any, R: Array, forces: Any, path: Any) -> tuple[Array, Array]:
     spin = slice(3, 6)
-    wrong = [replace(state, force=state.force.copy()) for state in path]
-    for state in wrong:
-        state.force[:, spin] *= -1.0
-    return right(mesh, wrong)
+    wrong = [force.copy() for force in forces]
+    for force in wrong:
+        force[:, spin] *= -1.0
+    return right(mesh, R, wrong, path)
 
 
 def _without_axial_force(right: Any, self: Any, frame: Any, spin: Any, f: Array, *rest: Any) -> Array:
