@@ -62,9 +62,14 @@ class Constraints:
             if isinstance(s, Prescribed) and s.rotation is not None
         ]
         self.dofs = np.concatenate([np.zeros(0, np.int32), *(d for d, _ in self._parts(0.0))]).astype(np.int32)
+        self._moving = any(isinstance(s, Prescribed) for s in scene.supports)
+        self._at_rest = self._values(0.0)
 
     def values(self, t: float) -> NDArray[np.float64]:
         """Values of `dofs` at time t."""
+        return self._values(t) if self._moving else self._at_rest
+
+    def _values(self, t: float) -> NDArray[np.float64]:
         return np.concatenate([np.zeros(0), *(v for _, v in self._parts(t))])
 
     def largest_turn(self, t_0: float, t_1: float) -> float:

@@ -53,6 +53,7 @@ class Discretization:
     Attributes:
         points: Gauss points on [0, 1].
         dofs: Local numbers of each field, name → (cells, nodes, components).
+        state: Values of all unknowns on this rank, owned ones first, then ghosts: the memory of `x`.
         matrix: Tangent, with the pattern of the elements.
         band: Its layout as a band; None on several ranks.
         cell: For each local cell, its number when all rods are lined up.
@@ -90,7 +91,7 @@ class Discretization:
             function.x.array[:] = random.uniform(1.0, 2.0, len(function.x.array))
         spanned = self.tangent.matrix()
         self.tangent.add_matrix(spanned)
-        every = np.arange(len(self.x.x.array), dtype=np.int32)
+        every = np.arange(len(self.state), dtype=np.int32)
         r, q = (self.dofs[f].reshape(-1, self.dofs[f].shape[2]) for f in ("r", "q"))
         both = np.concatenate([r, q], axis=1)
         rows, columns = np.repeat(r, both.shape[1], axis=1).ravel(), np.tile(both, (1, r.shape[1])).ravel()
@@ -102,6 +103,7 @@ class Discretization:
         elements = self.forms.elements
         self.space = backend.space(self.mesh, elements["x"])
         self.x = backend.function(self.space)
+        self.state = self.x.x.array
         self._assembled = backend.function(self.space)
         self.r_0, self.C_n, self.C_m, self.f = (
             backend.function(backend.space(self.mesh, elements[name])) for name in ("r_0", "C_n", "C_m", "f")
@@ -146,7 +148,7 @@ class Discretization:
         vectors = []
         for field in f:
             self._fill(self.f, field)
-            b = np.zeros_like(self.x.x.array)
+            b = np.zeros_like(self.state)
             self.line_load.add_vector(b)
             vectors.append(b)
         return vectors

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.continuum.chord import Chord
 from dolfinrod.continuum.march import March, Trajectory, begin
 from dolfinrod.continuum.moving import Moving
-from dolfinrod.continuum.newton import Newton
 from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
@@ -59,7 +59,7 @@ def move(
         scheme = EULER if isinstance(times.scheme, ImplicitEuler) else MIDPOINT
         problem = Moving(in_time(scene), discretization, Placement.of(scene, kinematics), scheme)
         begin(problem)
-        newton, readout, trajectory = Newton(problem), Readout(problem), Trajectory()
+        newton, readout, trajectory = Chord(problem), Readout(problem), Trajectory()
         march = March(problem, times, newton, readout, trajectory, progress)
         compiling = discretization.seconds_compile if is_new else 0.0
         ready = time.perf_counter()

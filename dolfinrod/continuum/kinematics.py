@@ -88,6 +88,10 @@ class Kinematics(Protocol):
         """R v."""
         ...
 
+    def rotation(self, q: Array) -> Array:
+        """R, (n, dim, dim)."""
+        ...
+
     def rotate_back(self, q: Array, v: Array) -> Array:
         """Rᵀ v, also between the nodes."""
         ...
@@ -124,8 +128,12 @@ class Kinematics(Protocol):
         """Section frames in space of turned stress-free frames."""
         ...
 
-    def cayley(self, q_0: Array, q_1: Array) -> tuple[Array, Array]:
-        """Turn of a step in the turned frame by Cayley's map, and ∂/∂q₁."""
+    def cayley(self, q_0: Array, q_1: Array) -> Array:
+        """Turn of a step in the turned frame by Cayley's map."""
+        ...
+
+    def cayley_gradient(self, q_0: Array, q_1: Array) -> Array:
+        """∂/∂q₁ of that."""
         ...
 
     def turned_spin(self, q: Array, v: Array) -> Array:

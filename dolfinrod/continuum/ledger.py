@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mpi4py import MPI
+
 import numpy as np
 
-from dolfinrod.continuum import backend
 from dolfinrod.continuum.strain import Strain
 
 if TYPE_CHECKING:
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = ["Ledger"]
+
+# What a motion stores its energy in.
+STORED = ("kinetic", "strain", "potential")
 
 
 class Ledger:
@@ -31,10 +35,8 @@ class Ledger:
 
     def __init__(self, problem: Moving) -> None:
         self._problem, self._strain = problem, Strain(problem)
-        space = problem.discretization.space
-        self._parts = [backend.function(space) for _ in range(4)]
         self.rows: list[dict[str, float]] = []
-        self._now = {"kinetic": self._kinetic(), "strain": self._strain_energy(), "potential": problem.potential()}
+        self._now = dict(zip(STORED, self._summed(self._energies()), strict=True))
         self._works = dict.fromkeys(("load work", "support work", "drag", "damping", "numerical"), 0.0)
 
     def store(self) -> None:
@@ -49,41 +51,40 @@ class Ledger:
         """Book a step that has just ended."""
         problem, before = self._problem, self._now
         change = problem.change()
-        inertia, elastic, loads, drag = self._forces()
+        parts = self._forces()
         held = problem.constraints.dofs
         held = held[held < problem.discretization.n_owned]
-        total = inertia + elastic + loads + drag
-        pushed = float(total[held] @ change[held])
-        resisted = [float(part @ change) for part in (inertia, elastic, loads, drag)]
-        sums = problem.discretization.comm.allreduce(np.array([*resisted, pushed]))
-        self._now = {"kinetic": self._kinetic(), "strain": self._strain_energy(), "potential": problem.potential()}
+        resisted = [float(part @ change) for part in parts]
+        pushed = float(np.sum(parts, axis=0)[held] @ change[held])
+        sums = self._summed([*self._energies(), *resisted, pushed])
+        self._now = dict(zip(STORED, sums, strict=False))
         gained = {name: self._now[name] - before[name] for name in before}
-        self._works["load work"] += gained["potential"] - sums[2]
-        self._works["drag"] -= sums[3]
-        self._works["support work"] += sums[4]
-        self._works["numerical"] += gained["kinetic"] + gained["strain"] - sums[0] - sums[1]
+        inertia, elastic, loads, drag, support = sums[len(STORED) :]
+        self._works["load work"] += gained["potential"] - loads
+        self._works["drag"] -= drag
+        self._works["support work"] += support
+        self._works["numerical"] += gained["kinetic"] + gained["strain"] - inertia - elastic
 
     def _forces(self) -> list[Array]:
-        """Residuals of inertia, elasticity, loads and air at this rank's own dofs, along the sphere of the balance."""
-        problem, n = self._problem, self._problem.discretization.n_owned
-        arrays = [part.x.array for part in self._parts]
-        for b in arrays:
-            b[:] = 0.0
-        problem.add_apart(*arrays)
-        for part in self._parts:
-            backend.sum_over_ranks(part)
-        q, p = problem.lumped.q, problem.side()
+        """Residuals of the step's parts at this rank's own dofs, along the sphere of the balance."""
+        problem = self._problem
+        q, p, n = problem.lumped.q, problem.side(), problem.discretization.n_owned
+        arrays = [b[:n].copy() for b in problem.parts]
         if p.shape[1] == 4:
             for b in arrays:
                 b[q] -= np.einsum("ni,ni->n", p, b[q])[:, None] * p
-        return [b[:n] for b in arrays]
+        return arrays
 
-    def _kinetic(self) -> float:
+    def _summed(self, mine: list[float]) -> list[float]:
+        """Each number, added up over all ranks."""
+        sums = np.array(mine)
+        self._problem.discretization.comm.Allreduce(MPI.IN_PLACE, sums)
+        return [float(number) for number in sums]
+
+    def _energies(self) -> list[float]:
+        """What this rank stores, in the order of `STORED`."""
         problem, lumped = self._problem, self._problem.lumped
         body = problem.kinematics.turned_back(problem.x[lumped.q], problem.motion.π)
-        energy = 0.5 * float(lumped.m @ np.einsum("ni,ni->n", problem.motion.v, problem.motion.v))
-        energy += 0.5 * float(np.einsum("ni,nij,nj->", body, lumped.J_inverse, body))
-        return float(problem.discretization.comm.allreduce(energy))
-
-    def _strain_energy(self) -> float:
-        return self._strain.settle()
+        kinetic = 0.5 * float(lumped.m @ np.einsum("ni,ni->n", problem.motion.v, problem.motion.v))
+        kinetic += 0.5 * float(np.vdot(body, np.einsum("nij,nj->ni", lumped.J_inverse, body)))
+        return [kinetic, self._strain.settle(), problem.potential()]

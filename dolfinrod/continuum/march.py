@@ -10,6 +10,7 @@ import numpy as np
 from dolfinrod.continuum.ledger import Ledger
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.pace import Pace
+from dolfinrod.continuum.predictor import Predictor
 from dolfinrod.continuum.stepping import StepFailed
 from dolfinrod.result import StepLog
 from dolfinrod.scene.history import kinks
@@ -96,7 +97,7 @@ class March:
     ) -> None:
         self.newton, self._readout, self.trajectory, self._progress = newton, readout, trajectory, progress
         self.problem, self._times = problem, times
-        self.ledger = Ledger(self.problem)
+        self.ledger, self._predictor = Ledger(problem), Predictor(problem)
         order = problem.scheme.order + 1
         if times.dt is None:
             first = FIRST * min(problem.lumped.second, times.t_end)
@@ -128,12 +129,13 @@ class March:
         tried = (target - t) / max(n, 1.0)
         for cuts in range(MOST_CUTS + 1):
             problem.begin_step(t, tried)
-            problem.x[:] = self._guess(start)
+            problem.x[:] = self._predictor.guess(t + tried)
             outcome = self.newton.solve()
             trajectory.iterations += outcome.iterations
             if outcome.converged:
                 problem.end_step()
                 if pace.allows(problem.local_error(), tried):
+                    self._predictor.learn(t + tried)
                     self.ledger.step()
                     self._log(t + tried, outcome, cuts)
                     return target if n <= 1.0 and not cuts else t + tried
@@ -144,15 +146,6 @@ class March:
             problem.x[:] = start
             problem.motion = motion
         raise StepFailed(t=t, step=2 * tried, reason=outcome.reason)
-
-    def _guess(self, start: Array) -> Array:
-        """Where the velocities lead."""
-        problem = self.problem
-        x = problem.x.copy()
-        r = problem.lumped.r
-        free = ~np.isin(r, problem.constraints.dofs)
-        x[r] = np.where(free, start[r] + problem.h * problem.motion.v, x[r])
-        return x
 
     def _log(self, t: float, outcome: Outcome, cuts: int) -> None:
         energy = self.ledger.strain() * self.problem.placement.moment

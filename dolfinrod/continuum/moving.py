@@ -13,7 +13,7 @@ from dolfinrod.continuum.drag import Drag
 from dolfinrod.continuum.lumped import Lumped, summed
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.problem import Problem
-from dolfinrod.continuum.schemes import momentum
+from dolfinrod.continuum.turning import Turning
 from dolfinrod.scene import Gravity, LineForce, Steady
 
 if TYPE_CHECKING:
@@ -43,6 +43,7 @@ class Moving(Problem):
 
     Attributes:
         lumped: Masses of the nodes.
+        parts: Residuals of inertia, elasticity, loads and air in the last step, on all local dofs.
         motion: How the nodes move.
     """
 
@@ -52,6 +53,7 @@ class Moving(Problem):
         self.lumped = Lumped.of(self)
         self.motion = Motion(np.zeros(self.lumped.r.shape), np.zeros((len(self.lumped.q), self.kinematics.n_spin)))
         self._before, self._start = self.x.copy(), self.motion
+        self._turning = Turning(self.kinematics, scheme, self.lumped.J)
         lines = [load for load in scene.loads if isinstance(load, Gravity | LineForce)]
         self._weights = [
             summed(self, vector)
@@ -59,12 +61,24 @@ class Moving(Problem):
             if isinstance(load, Gravity) and isinstance(history, Steady)
         ]
         self._drag = None if scene.air is None else Drag(self, scene.air)
-        self._forces = backend.function(discretization.space)
-        self._nodal = [np.unique(discretization.dofs[f]) for f in ("r", "q")]
-        self._multipliers = np.unique(discretization.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
-        self._shrink = self.discretization.matrix.createVecLeft()
+        self._parts = [backend.function(discretization.space) for _ in range(4)]
+        self.parts = [part.x.array for part in self._parts]
+        self._is_held = np.zeros(len(self.x), dtype=bool)
+        self._is_held[self.constraints.dofs] = True
+        self._set_levels()
+
+    def _set_levels(self) -> None:
+        """Weights of the states before and after a step in the one at which forces act: no multipliers there."""
+        d, level = self.discretization, self.scheme.level
+        self._nodal = np.unique(np.concatenate([d.dofs[f].ravel() for f in ("r", "q")]))
+        self._quaternions = np.unique(d.dofs["q"].reshape(-1, d.dofs["q"].shape[2]), axis=0)
+        self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
+        self._after_part, self._before_part = np.ones(len(self.x)), np.zeros(len(self.x))
+        self._after_part[self._nodal], self._before_part[self._nodal] = level, 1.0 - level
+        self._after_part[self._multipliers] = 0.0
+        self._shrink = d.matrix.createVecLeft()
         self._shrink.set(1.0)
-        self._shrink.array[np.concatenate([self.lumped.r.ravel(), self.lumped.q.ravel()])] = scheme.level
+        self._shrink.array[np.concatenate([self.lumped.r.ravel(), self.lumped.q.ravel()])] = level
 
     def begin_step(self, t: float, dt: float) -> None:
         """Put the supports at the end of a step from t on, and the loads where the scheme has them [s]."""
@@ -73,71 +87,72 @@ class Moving(Problem):
         self.h = dt / self.lumped.second
         self.advance_to(t + self.scheme.level * dt)
         self.x[self.constraints.dofs] = self.constraints.values(t + dt)
+        self._r_0 = self._before[self.lumped.r]
+        self._turning.begin(self._before[self.lumped.q], self._start.π, self.h)
+        self._from_before = self._before_part * self._before
 
     def add_residual(self, b: Array) -> None:
         """Add this rank's residual of the step to the local array b."""
-        self.add_apart(b, b, b, b)
+        self._add_apart(b, b, b, b)
 
-    def add_apart(self, inertia: Array, elastic: Array, loads: Array, drag: Array) -> None:
+    def _add_apart(self, inertia: Array, elastic: Array, loads: Array, drag: Array) -> None:
         """Add this rank's residuals of inertia, elasticity, loads and air, each to its own local array."""
-        lumped, kin = self.lumped, self.kinematics
-        r, q = lumped.r, lumped.q
+        lumped, rate = self.lumped, self._rate()
         per_step = 1.0 / (self.scheme.level * self.h)
-        after = self.x.copy()
-        inertia[r] += per_step * lumped.m[:, None] * ((after[r] - self._before[r]) / self.h - self._start.v)
-        inertia[q] += per_step * np.einsum("nij,ni->nj", kin.spin(self.side()), self._gained())
-        if self.scheme.level != 1.0:
-            self.x[:] = self._between(after)
-        self.discretization.residual.add_vector(elastic)
-        self.x[:] = after
-        if self.scheme.level != 1.0:
-            # The nodes are on the sphere after the step, not between.
-            elastic[self._multipliers] = 0.0
-        at = after if self.scheme.level == 1.0 else self._between(after, unit=True)
+        inertia[lumped.r] += (per_step * lumped.m)[:, None] * (rate - self._start.v)
+        inertia[lumped.q] += per_step * self._turning.residual(self.x[lumped.q])
+        self._add_elastic(elastic)
+        at = self._acting_at() if self._acting or self._drag is not None else self.x
         self.add_loads(loads, at)
         if self._drag is not None:
-            drag[r] -= self._drag.force(at[r], at[q], self._rate(), self.t)
+            drag[lumped.r] -= self._drag.force(at[lumped.r], at[lumped.q], rate, self.t)
+
+    def _add_elastic(self, b: Array) -> None:
+        """Add the residual of the forms, at the state at which forces act."""
+        if self.scheme.level == 1.0:
+            self.discretization.residual.add_vector(b)
+            return
+        x = self.x
+        after = x.copy()
+        x[:] = self._between(after)
+        self.discretization.residual.add_vector(b)
+        x[:] = after
+        # The nodes are on the sphere after the step, not between.
+        b[self._multipliers] = 0.0
 
     def _rate(self) -> Array:
         """Mean velocity of this rank's own nodes in the step."""
         r = self.lumped.r
-        return (self.x[r] - self._before[r]) / self.h
+        return (self.x[r] - self._r_0) / self.h
 
     def change(self) -> Array:
         """What the last step changed of this rank's own positions and rotations, nothing else."""
-        n = self.discretization.n_owned
         moved = np.zeros(len(self.x))
-        for dofs in self._nodal:
-            moved[dofs] = self.x[dofs] - self._before[dofs]
-        return moved[:n]
+        moved[self._nodal] = self.x[self._nodal] - self._before[self._nodal]
+        return moved[: self.discretization.n_owned]
 
     def potential(self) -> float:
-        """Potential energy of the weights that act in full all the time, zero at the origin."""
+        """This rank's part of the potential energy of the weights that always act in full, zero at the origin."""
         n = self.discretization.n_owned
-        energy = sum(float(vector[:n] @ self.x[:n]) for vector in self._weights)
-        return float(self.discretization.comm.allreduce(energy))
+        return sum(float(vector[:n] @ self.x[:n]) for vector in self._weights)
 
-    def _between(self, after: Array, *, unit: bool = False) -> Array:
-        """The state at which forces act: positions and rotations between, resultants as they are, no multipliers."""
-        x = after.copy()
-        for dofs in self._nodal:
-            x[dofs] += (1.0 - self.scheme.level) * (self._before[dofs] - after[dofs])
-        x[self._multipliers] = 0.0
-        if unit and len(self._multipliers):
-            q = self.discretization.dofs["q"].reshape(-1, 4)
-            x[q] /= np.linalg.norm(x[q], axis=1, keepdims=True)
+    def _between(self, after: Array) -> Array:
+        """The state in the forms: positions and rotations between, resultants as they are, no multipliers."""
+        return self._after_part * after + self._from_before
+
+    def _acting_at(self) -> Array:
+        """The same with unit quaternions, for forces that follow the rods."""
+        if self.scheme.level == 1.0:
+            return self.x
+        x = self._between(self.x)
+        if len(self._multipliers):
+            p = x[self._quaternions]
+            x[self._quaternions] = p / np.sqrt(np.einsum("ni,ni->n", p, p))[:, None]
         return x
 
     def side(self) -> Array:
         """Rotations of this rank's own nodes along whose unit sphere the balance of moments is taken."""
         return (self.x if self.scheme.side else self._before)[self.lumped.q]
-
-    def _gained(self) -> Array:
-        """Moment of momentum gained in the part of the step that the balance is about."""
-        q = self.lumped.q
-        bend = 0.0 if self.scheme.side else 0.5
-        Π, _ = momentum(self.kinematics, self.lumped.J, self._before[q], self.x[q], self.h, bend)
-        return self.kinematics.turned_spin(self.side(), Π) - self._start.π
 
     def balance_multipliers(self, b: Array) -> None:
         """As in statics, along the rotations of the balance; the multipliers are no part of the forces between."""
@@ -163,10 +178,10 @@ class Moving(Problem):
         if self.scheme.level != 1.0:
             A.diagonalScale(None, self._shrink)
             self._add_conditions(A)
-        twice = 1.0 / (self.scheme.level * h)
-        mass = (twice / h * self.lumped.m)[:, None, None] * np.eye(r.shape[1])
+        per_step = 1.0 / (self.scheme.level * h)
+        mass = (per_step / h * self.lumped.m)[:, None, None] * np.eye(r.shape[1])
         backend.add_entries(A, *self.entries(r, r, mass))
-        backend.add_entries(A, *self.entries(q, q, twice * self._turning()))
+        backend.add_entries(A, *self.entries(q, q, per_step * self._turning.tangent(after[q])))
         if self._drag is not None:
             self._add_drag(A, self._drag)
         A.assemble()
@@ -174,25 +189,10 @@ class Moving(Problem):
     def _add_drag(self, A: PETSc.Mat, drag: Drag) -> None:
         """Tangent of the air's force."""
         r, q = self.lumped.r, self.lumped.q
-        at = self.x if self.scheme.level == 1.0 else self._between(self.x, unit=True)
+        at = self._acting_at()
         by_rate, by_q = drag.gradient(at[r], at[q], self._rate(), self.t)
         backend.add_entries(A, *self.entries(r, r, -by_rate / self.h))
         backend.add_entries(A, *self.entries(r, q, -self.scheme.level * by_q))
-
-    def _turning(self) -> Array:
-        """∂/∂q₁ of what the sections gain, along the sphere, shape (n, n_q, n_q)."""
-        kin, q = self.kinematics, self.lumped.q
-        side, gained = self.side(), self._gained()
-        Π, dΠ = momentum(kin, self.lumped.J, self._before[q], self.x[q], self.h, 0.0 if self.scheme.side else 0.5)
-        turned = np.stack([kin.turned_spin(side, dΠ[:, :, j]) for j in range(dΠ.shape[2])], axis=2)
-        if self.scheme.side and kin.n_spin == 3:
-            turned += kin.rotate_gradient(side, Π)
-        blocks = np.einsum("nij,nik->njk", kin.spin(side), turned)
-        if self.scheme.side and kin.n_spin == 3:
-            n, n_q = q.shape
-            units = kin.spin(np.repeat(np.eye(n_q), n, axis=0)).reshape(n_q, n, -1, n_q)
-            blocks += np.einsum("knij,ni->njk", units, gained)
-        return blocks
 
     def _add_conditions(self, A: PETSc.Mat) -> None:
         """Unit norm after the step, its multiplier along the rotation before, where the form has both between."""
@@ -225,25 +225,24 @@ class Moving(Problem):
 
     def end_step(self) -> None:
         """Take the velocities and momenta that the step leads to."""
-        r, q, kin = self.lumped.r, self.lumped.q, self.kinematics
-        rate, start = self._rate(), self._start
-        mean, _ = momentum(kin, self.lumped.J, self._before[q], self.x[q], self.h, 0.0)
-        v, π = rate, kin.turned_spin(self.x[q], mean)
-        if not self.scheme.side:
-            # What a support adds to the momentum of what it holds is not known: the mean rate stands for it there.
-            held_r, held_q = (np.isin(dofs, self.constraints.dofs) for dofs in (r, q))
-            v = np.where(held_r, rate, 2.0 * rate - start.v)
-            π = np.where(held_q.any(axis=1)[:, None], π, self._left())
+        r, q, rate, start = self.lumped.r, self.lumped.q, self._rate(), self._start
+        after = self.x[q]
+        self._take_apart()
+        if self.scheme.side:
+            self.motion = Motion(rate, self._turning.mean(after), (rate - start.v) / self.h, self.h)
+            return
+        # What a support adds to the momentum of what it holds is not known: the mean rate stands for it there.
+        v = np.where(self._is_held[r], rate, 2.0 * rate - start.v)
+        π = self._turning.left(after, sum(b[q] for b in self.parts[1:]))
+        held = self._is_held[q].any(axis=1)
+        if held.any():
+            π[held] = self._turning.mean(after)[held]
         self.motion = Motion(v, π, (v - start.v) / self.h, self.h)
 
-    def _left(self) -> Array:
-        """Moment of momentum that a midpoint step leaves the free sections with."""
-        q, kin = self.lumped.q, self.kinematics
-        b = self._forces.x.array
-        b[:] = 0.0
-        self.add_apart(np.zeros_like(b), b, b, b)
-        backend.sum_over_ranks(self._forces)
-        Π, _ = momentum(kin, self.lumped.J, self._before[q], self.x[q], self.h, -0.5)
-        # Half of a change of q after the step moves the state between: a quarter of the spin for a quaternion.
-        share = 0.125 if kin.n_spin == 3 else 0.5
-        return kin.turned_spin(self.x[q], Π) - self.h * share * np.einsum("nij,nj->ni", kin.spin(self.x[q]), b[q])
+    def _take_apart(self) -> None:
+        """Give `parts` what the step has led to."""
+        for b in self.parts:
+            b[:] = 0.0
+        self._add_apart(*self.parts)
+        for part in self._parts:
+            backend.sum_over_ranks(part)

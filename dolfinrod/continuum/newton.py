@@ -17,7 +17,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from dolfinrod.continuum.direct import LIBRARY_ERROR, lu
-from dolfinrod.continuum.watch import Watch
+from dolfinrod.continuum.watch import Unwatched, Watch
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -116,10 +116,9 @@ class Newton:
         """
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
-        self._watch = Watch(self.problem, last)
+        self._watch = self._watched(last)
         reason = self._run()
         iterations = self.snes.getIterationNumber()
-        self.factorizations += iterations
         if reason == SINGULAR:
             self.close()
             self._open()
@@ -127,6 +126,9 @@ class Newton:
         # The last residual was that of the solution, and left the problem there with multipliers in balance.
         words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
         return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words, self._watch.strayed())
+
+    def _watched(self, last: NDArray[np.float64] | None) -> Watch | Unwatched:
+        return Watch(self.problem, last)
 
     def _run(self) -> int:
         """The SNES reason for which it stopped."""
@@ -167,6 +169,7 @@ class Newton:
 
     def _tangent(self, snes: PETSc.SNES, X: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         self.problem.assemble_tangent(P)
+        self.factorizations += 1
 
     def _limit(self, X: PETSc.Vec, Y: PETSc.Vec) -> bool:
         """Replace the Newton step Y (x − Y is next) by one that stays on the manifold and turns at most so far."""
@@ -174,21 +177,29 @@ class Newton:
         x, y = X.array_r, Y.array
         q = x[self._q]
         increment = kin.increment(q, -y[self._q])
-        largest = self._largest(kin.angles(increment), *(a[dofs] for a in (y, x) for dofs in self._linear))
+        sizes = np.abs(y), np.abs(x)
+        largest = self._largest(kin.angles(increment), *(size[dofs] for size in sizes for dofs in self._linear))
         turn = largest[0]
         if turn > LARGEST_TURN:
             increment *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
-        self._watch.see(np.einsum("nij,nj->ni", kin.spin(q), increment), limited=turn > LARGEST_TURN)
+        self._watch.see(q, increment, limited=turn > LARGEST_TURN)
         y[self._q] = q - kin.turn(q, increment)
         before, self._size = (self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0))))
-        # Quadratic convergence: the ratio of an increment to the square of the one before, and never less than 1.
-        self._next = self._size**2 * max(1.0, self._size / before**2) if np.isfinite(before) else np.inf
+        self._next = self._expected(before, self._size)
         return True
 
+    def _expected(self, before: float, size: float) -> float:
+        """Next increment after these two: quadratic, with their ratio, never taken below 1."""
+        return size**2 * max(1.0, size / before**2) if np.isfinite(before) else np.inf
+
+    def _settled(self) -> bool:
+        """Whether no further increment matters."""
+        return self._size < TOLERANCE or self._next < NEGLIGIBLE
+
     def _largest(self, *values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Largest magnitude in each array, over all ranks; a rank may have none."""
-        largest = np.array([np.abs(v).max(initial=0.0) for v in values])
+        """Largest of each array of magnitudes, over all ranks; a rank may have none."""
+        largest = np.array([v.max(initial=0.0) for v in values])
         self.problem.discretization.comm.Allreduce(MPI.IN_PLACE, largest, op=MPI.MAX)
         return largest
 
@@ -198,6 +209,6 @@ class Newton:
             return reasons.DIVERGED_FNORM_NAN
         if self._watch.lost:
             return reasons.DIVERGED_DTOL
-        if iteration > 0 and (self._size < TOLERANCE or self._next < NEGLIGIBLE):
+        if iteration > 0 and self._settled():
             return reasons.CONVERGED_SNORM_RELATIVE
         return reasons.DIVERGED_MAX_IT if iteration >= MOST_ITERATIONS else reasons.ITERATING

@@ -8,6 +8,8 @@ __all__ = ["Pace"]
 
 # Part of the step that would just meet the tolerance, and how much a step may differ from the one before.
 SAFETY, SHORTER, LONGER = 0.9, 0.2, 2.0
+# Steps stay as they are, and with them the tangent, unless they can grow by more than this.
+WORTH = 1.2
 
 
 @dataclass
@@ -34,7 +36,8 @@ class Pace:
         if self.tol is None:
             return True
         wanted = SAFETY * (self.tol / error) ** (1.0 / self.order) if error > 0.0 else LONGER
-        self.length = tried * min(max(wanted, SHORTER), LONGER)
+        if not 1.0 <= wanted < WORTH:
+            self.length = tried * min(max(wanted, SHORTER), LONGER)
         return error <= self.tol
 
     def fail(self, tried: float) -> None:

@@ -64,6 +64,11 @@ class PlanarRods:
         c, s = np.cos(q[:, 0]), np.sin(q[:, 0])
         return np.stack([c * v[:, 0] - s * v[:, 1], s * v[:, 0] + c * v[:, 1]], axis=1)
 
+    def rotation(self, q: Array) -> Array:
+        """R(φ), (n, 2, 2)."""
+        c, s = np.cos(q[:, 0]), np.sin(q[:, 0])
+        return np.stack([c, -s, s, c], axis=1).reshape(-1, 2, 2)
+
     def rotate_back(self, q: Array, v: Array) -> Array:
         """R(φ)ᵀ v, (n, 2)."""
         return self.rotate(-q, v)
@@ -99,9 +104,13 @@ class PlanarRods:
         """None: the normal is fixed, (n, 1, 1) twice."""
         return np.zeros((len(q), 1, 1)), np.zeros((len(q), 1, 1))
 
-    def cayley(self, q_0: Array, q_1: Array) -> tuple[Array, Array]:
-        """The angle between them, (n, 1), and its derivative: a turn about the normal is its own momentum's."""
-        return q_1 - q_0, np.ones((len(q_0), 1, 1))
+    def cayley(self, q_0: Array, q_1: Array) -> Array:
+        """The angle between them, (n, 1): a turn about the normal is its own momentum's."""
+        return q_1 - q_0
+
+    def cayley_gradient(self, q_0: Array, q_1: Array) -> Array:
+        """Its derivative, (n, 1, 1)."""
+        return np.ones((len(q_0), 1, 1))
 
     def turned_spin(self, q: Array, v: Array) -> Array:
         """v itself: the normal is fixed, (n, 1)."""

@@ -72,7 +72,7 @@ class Problem:
     @property
     def x(self) -> NDArray[np.float64]:
         """State on this rank."""
-        return self.discretization.x.x.array
+        return self.discretization.state
 
     def _cut_rods(self) -> None:
         """Element number and rod of every local cell, and where its nodes lie."""

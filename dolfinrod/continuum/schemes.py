@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.continuum.quaternion import cross
+from dolfinrod.continuum.quaternion import cross, crossed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["EULER", "MIDPOINT", "Scheme", "momentum"]
+__all__ = ["EULER", "MIDPOINT", "Scheme", "momentum", "momentum_gradient"]
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ EULER = Scheme("implicit Euler", 1.0, 1, 1)
 MIDPOINT = Scheme("variational midpoint", 0.5, 2, 0)
 
 
-def momentum(kin: Kinematics, J: Array, q_0: Array, q_1: Array, h: float, bend: float) -> tuple[Array, Array]:
-    """Momentum of turning sections in stress-free directions, μ + bend c × μ + bend² (c·μ) c, and ∂/∂q₁.
+def momentum(kin: Kinematics, J: Array, q_0: Array, q_1: Array, h: float, bend: float) -> Array:
+    """Momentum of turning sections in stress-free directions, μ + bend c × μ + bend² (c·μ) c.
 
     Args:
         kin: How sections turn.
@@ -63,20 +63,25 @@ def momentum(kin: Kinematics, J: Array, q_0: Array, q_1: Array, h: float, bend: 
         bend: ½ at the start of a midpoint step, −½ at its end, 0 for backward Euler.
 
     Returns:
-        Shapes (n, n_spin) and (n, n_spin, n_q).
+        Shape (n, n_spin).
     """
-    c, dc = kin.cayley(q_0, q_1)
-    μ, dμ = np.einsum("nij,nj->ni", J, c) / h, J @ dc / h
+    c = kin.cayley(q_0, q_1)
+    μ = np.einsum("nij,nj->ni", J, c) / h
     if kin.n_spin == 1 or bend == 0.0:
-        return μ, dμ
+        return np.asarray(μ)
+    along = np.einsum("ni,ni->n", c, μ)[:, None]
+    return np.asarray(μ + bend * cross(c, μ) + (bend**2 * along) * c)
+
+
+def momentum_gradient(kin: Kinematics, J: Array, q_0: Array, q_1: Array, h: float, bend: float) -> Array:
+    """∂/∂q₁ of the same, shape (n, n_spin, n_q)."""
+    c, dc = kin.cayley(q_0, q_1), kin.cayley_gradient(q_0, q_1)
+    dμ = J @ dc / h
+    if kin.n_spin == 1 or bend == 0.0:
+        return np.asarray(dμ)
+    μ = np.einsum("nij,nj->ni", J, c) / h
     along = np.einsum("ni,ni->n", c, μ)
     d_along = np.einsum("nij,ni->nj", dc, μ) + np.einsum("ni,nij->nj", c, dμ)
-    turned = bend * cross(c, μ) + bend**2 * along[:, None] * c
-    d_turned = bend * (_crossed(c, dμ) - _crossed(μ, dc))
-    d_turned += bend**2 * (along[:, None, None] * dc + c[:, :, None] * d_along[:, None, :])
-    return μ + turned, dμ + d_turned
-
-
-def _crossed(a: Array, columns: Array) -> Array:
-    """a × each column, shapes (n, 3), (n, 3, k) → (n, 3, k)."""
-    return np.swapaxes(cross(a[:, None, :], np.swapaxes(columns, 1, 2)), 1, 2)
+    turned = bend * (crossed(c, dμ) - crossed(μ, dc))
+    turned += bend**2 * (along[:, None, None] * dc + c[:, :, None] * d_along[:, None, :])
+    return np.asarray(dμ + turned)

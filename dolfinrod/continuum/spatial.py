@@ -65,7 +65,8 @@ class SpatialRods:
     def turn(self, q: Array, increment: Array) -> Array:
         """Along the great circle, cos |δp| p + sin |δp| δp/|δp|, which is exp(½ θ) p; unit to round-off, (n, 4)."""
         half = 0.5 * self.angles(increment)
-        turned = np.cos(half)[:, None] * q + np.sinc(half / np.pi)[:, None] * increment
+        ratio = np.divide(np.sin(half), half, out=np.ones_like(half), where=half > 0.0)
+        turned = np.cos(half)[:, None] * q + ratio[:, None] * increment
         return turned / np.sqrt(np.einsum("ni,ni->n", turned, turned))[:, None]
 
     def compose(self, spins: list[Array]) -> Array:
@@ -78,6 +79,11 @@ class SpatialRods:
     def rotate(self, q: Array, v: Array) -> Array:
         """R(p) v, (n, 3)."""
         return quaternion.rotate(q, v)
+
+    def rotation(self, q: Array) -> Array:
+        """R(p) of quaternions of any norm, v ↦ Im(p v p̄)/|p|², (n, 3, 3)."""
+        turned = quaternion.left(q) @ np.swapaxes(quaternion.right(q), 1, 2)
+        return np.asarray(turned / np.einsum("ni,ni->n", q, q)[:, None, None])
 
     def rotate_back(self, q: Array, v: Array) -> Array:
         """R(p)ᵀ v for quaternions of any norm, (n, 3)."""
@@ -121,12 +127,16 @@ class SpatialRods:
         moments = quaternion.cross(np.eye(3)[None], 2.0 * half[:, None, :])
         return np.swapaxes(changes, 1, 2), np.swapaxes(moments, 1, 2)
 
-    def cayley(self, q_0: Array, q_1: Array) -> tuple[Array, Array]:
-        """c = 2 Im(p̄₀ p₁)/(p₀·p₁) with R₁ = R₀ cay(c), and ∂c/∂p₁, shapes (n, 3) and (n, 3, 4)."""
+    def cayley(self, q_0: Array, q_1: Array) -> Array:
+        """c = 2 Im(p̄₀ p₁)/(p₀·p₁) with R₁ = R₀ cay(c), (n, 3)."""
         cosine = np.einsum("ni,ni->n", q_0, q_1)[:, None]
-        half = quaternion.right(q_0)
-        c = 2.0 * np.einsum("nij,nj->ni", half, q_1) / cosine
-        return c, (2.0 * half - c[:, :, None] * q_0[:, None, :]) / cosine[:, :, None]
+        return np.asarray(np.einsum("nij,nj->ni", quaternion.right(q_0), 2.0 * q_1 / cosine))
+
+    def cayley_gradient(self, q_0: Array, q_1: Array) -> Array:
+        """∂c/∂p₁, (n, 3, 4)."""
+        cosine = np.einsum("ni,ni->n", q_0, q_1)[:, None, None]
+        c = self.cayley(q_0, q_1)
+        return np.asarray((2.0 * quaternion.right(q_0) - c[:, :, None] * q_0[:, None, :]) / cosine)
 
     def turned_spin(self, q: Array, v: Array) -> Array:
         """R(p) v, (n, 3)."""

@@ -13,11 +13,14 @@ import numpy as np
 from dolfinrod.continuum import reference
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.problem import Problem
 
     Array = NDArray[np.float64]
+    Solve = Callable[[Array, Array, Array], tuple[Array, Array]]
 
 __all__ = ["Strain"]
 
@@ -35,45 +38,59 @@ class Strain:
     def __init__(self, problem: Problem) -> None:
         d = problem.discretization
         self._problem, self._mine = problem, slice(0, d.n_owned_cells)
-        self._φ = reference.discontinuous_basis(d.degree - 1, d.points)
+        φ = reference.discontinuous_basis(d.degree - 1, d.points)
+        self._pairs = np.einsum("qa,qb->abq", φ, φ).reshape(-1, len(φ))
         self._rotations = reference.lagrange_basis(d.degree, d.points)
         self._weights = np.diff(problem.ends[self._mine], axis=1) * reference.quadrature_weights(2 * d.degree)
-        self._inverse_m = np.linalg.pinv(self._blocks(problem.values.C_m[self._mine]), RIGID, hermitian=True)
+        self._dofs = {f: d.dofs[f][self._mine].reshape(d.n_owned_cells, -1) for f in ("N", "m")}
+        self._C_n, C_m = problem.values.C_n[self._mine], problem.values.C_m[self._mine]
+        self._solve_n, self._solve_m = _solver(self._C_n), _solver(C_m)
+        self._blocks_m = self._blocks(C_m)
 
     def settle(self) -> float:
-        """Give the state the resultants of its strains; the strain energy in EI/L."""
+        """Give the state the resultants of its strains; this rank's strain energy in EI/L."""
         p, d = self._problem, self._problem.discretization
-        dofs = {f: d.dofs[f][self._mine].reshape(d.n_owned_cells, -1) for f in ("N", "m")}
-        kept = {f: p.x[at].copy() for f, at in dofs.items()}
-        for at in dofs.values():
+        kept = {f: p.x[at] for f, at in self._dofs.items()}
+        for at in self._dofs.values():
             p.x[at] = 0.0
         strains = d.assembled_residual()
-        C = self._turned(p.values.C_n[self._mine])
         energy = 0.0
-        for field, inverse, blocks in (
-            ("N", np.linalg.pinv(C, RIGID, hermitian=True), C),
-            ("m", self._inverse_m, self._blocks(p.values.C_m[self._mine])),
-        ):
-            g, old = strains[dofs[field]], kept[field]
-            # Its strains are those of the rigid part of the old resultants, zero, and of the new ones.
-            found = np.einsum("cij,cj->ci", inverse, g)
-            energy += 0.5 * float(np.einsum("ci,ci->", g, found))
-            p.x[dofs[field]] = old + found - np.einsum("cij,cjk,ck->ci", inverse, blocks, old, optimize=True)
+        for field, solve, C in (("N", self._solve_n, self._turned()), ("m", self._solve_m, self._blocks_m)):
+            g, old = strains[self._dofs[field]], kept[field]
+            found, rigid = solve(C, g, old)
+            energy += 0.5 * float(np.vdot(g, found))
+            p.x[self._dofs[field]] = found + rigid
         d.x.x.scatter_forward()
-        return float(d.comm.allreduce(energy))
+        return energy
 
-    def _turned(self, C: Array) -> Array:
+    def _turned(self) -> Array:
         """∫ φ φ R C Rᵀ of each element, R at its Gauss points."""
         p, d = self._problem, self._problem.discretization
-        q = np.einsum("qa,cai->cqi", self._rotations, p.x[d.dofs["q"][self._mine]])
-        flat = q.reshape(-1, q.shape[2])
-        dim = p.kinematics.dim
-        columns = [p.kinematics.rotate_back(flat, np.tile(e, (len(flat), 1))) for e in np.eye(dim)]
-        R_T = np.stack(columns, axis=2).reshape(*q.shape[:2], dim, dim)
-        return self._blocks(np.einsum("cqki,cqkl,cqlj->cqij", R_T, C, R_T, optimize=True))
+        q = self._rotations @ p.x[d.dofs["q"][self._mine]]
+        R = p.kinematics.rotation(q.reshape(-1, q.shape[2])).reshape(*q.shape[:2], *self._C_n.shape[2:])
+        return self._blocks(np.asarray(R @ self._C_n @ np.swapaxes(R, 2, 3), dtype=float))
 
     def _blocks(self, C: Array) -> Array:
         """∫ φ_a φ_b C of each element, shape (cells, k d, k d)."""
-        blocks = np.einsum("cq,qa,qb,cqij->caibj", self._weights, self._φ, self._φ, C, optimize=True)
-        n = blocks.shape[1] * blocks.shape[2]
-        return np.asarray(blocks.reshape(len(C), n, n))
+        cells, points, dim, _ = C.shape
+        k = int(np.sqrt(len(self._pairs)))
+        blocks = self._pairs @ (self._weights[:, :, None] * C.reshape(cells, points, -1))
+        return np.asarray(np.swapaxes(blocks.reshape(cells, k, k, dim, dim), 2, 3).reshape(cells, k * dim, k * dim))
+
+
+def _solver(C: Array) -> Solve:
+    """How strains give resultants, for such compliances at the Gauss points."""
+    eigenvalues = np.linalg.eigvalsh(C)
+    return _with_rigid if (eigenvalues <= RIGID * eigenvalues.max(initial=0.0)).any() else _elastic
+
+
+def _elastic(C: Array, g: Array, old: Array) -> tuple[Array, Array]:
+    """Resultants of the strains g, and nothing else."""
+    return np.linalg.solve(C, g[:, :, None])[:, :, 0], np.zeros_like(old)
+
+
+def _with_rigid(C: Array, g: Array, old: Array) -> tuple[Array, Array]:
+    """Resultants of the strains g, and the part of the old ones that strains nothing."""
+    inverse = np.linalg.pinv(C, RIGID, hermitian=True)
+    elastic = inverse @ np.stack([g, (C @ old[:, :, None])[:, :, 0]], axis=2)
+    return elastic[:, :, 0], old - elastic[:, :, 1]

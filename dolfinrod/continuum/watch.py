@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Watch", "largest_turn_between_nodes"]
+__all__ = ["Unwatched", "Watch", "largest_turn_between_nodes"]
 
 # Sections that turned this far in all beyond where they got [rad] are lost: what leads somewhere turns one way.
 LARGEST_DETOUR = 8.0
@@ -36,7 +36,7 @@ class Watch:
     """
 
     def __init__(self, problem: Problem, last: Array | None) -> None:
-        self._comm = problem.discretization.comm
+        self._comm, self._kin = problem.discretization.comm, problem.kinematics
         q = problem.discretization.owned_nodes("q")
         start = problem.x[q] if last is None else last[q]
         self._net = np.einsum("nij,nj->ni", problem.kinematics.spin(start), problem.x[q] - start)
@@ -44,13 +44,15 @@ class Watch:
         self.lost = False
         self._set_out = None if last is None else self._net.copy()
 
-    def see(self, spin: Array, *, limited: bool) -> None:
+    def see(self, q: Array, increment: Array, *, limited: bool) -> None:
         """Take note of an iteration.
 
         Args:
-            spin: Spins of this rank's nodes, shape (n, n_spin).
+            q: Rotations of this rank's nodes before it, shape (n, n_q).
+            increment: How it changes them, shape (n, n_q).
             limited: Whether the spins were cut down to the largest turn of an iteration.
         """
+        spin = np.einsum("nij,nj->ni", self._kin.spin(q), increment)
         self._net += spin
         if self._set_out is None:
             self._set_out = spin
@@ -72,6 +74,19 @@ class Watch:
         largest = np.array([np.abs(v).max(initial=0.0) for v in values])
         self._comm.Allreduce(MPI.IN_PLACE, largest, op=MPI.MAX)
         return largest
+
+
+class Unwatched:
+    """No watch: a step in time is too short to wander."""
+
+    lost = False
+
+    def see(self, q: Array, increment: Array, *, limited: bool) -> None:
+        """Take no note."""
+
+    def strayed(self) -> bool:
+        """It has not."""
+        return False
 
 
 def largest_turn_between_nodes(problem: Problem) -> float:

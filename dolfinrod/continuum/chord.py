@@ -1,0 +1,86 @@
+"""Newton's method for steps in time: each is close to the one before, so its tangent may serve again."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.continuum.newton import NEGLIGIBLE, TOLERANCE, Newton, Outcome
+from dolfinrod.continuum.watch import Unwatched
+
+if TYPE_CHECKING:
+    from petsc4py import PETSc
+
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.moving import Moving
+
+__all__ = ["Chord"]
+
+# Ratio of an increment to the one before, with a kept tangent, beyond which a new one costs less than more iterations.
+SLOW = 0.1
+# A new tangent costs about as much as this many iterations with an old one.
+DEAR = 5
+# Steps that differ by less than this part have the same tangent, but for terms of that size.
+SAME = 1e-3
+
+
+class Chord(Newton):
+    """Newton's method that keeps its factors, over iterations and steps, as long as they converge quickly.
+
+    The increments then fall by a ratio instead of quadratically, and an iteration costs a residual and a solve with
+    the factors. What is solved, and how accurately, does not depend on how old the tangent is.
+
+    Args:
+        problem: Residual, tangent and state.
+    """
+
+    problem: Moving
+
+    def __init__(self, problem: Moving) -> None:
+        super().__init__(problem)
+        self._h = np.nan
+        self._when_new = self._excess = 0
+        self._serves = self._is_fresh = self._stalls = False
+
+    def solve(self, last: NDArray[np.float64] | None = None) -> Outcome:
+        """State after the step that the problem has begun."""
+        h = self.problem.h
+        if not abs(h - self._h) <= SAME * h:
+            self._serves = False
+        self._stalls = False
+        factorizations = self.factorizations
+        outcome = super().solve(last)
+        self._age(outcome, is_new=self.factorizations > factorizations)
+        return outcome
+
+    def _age(self, outcome: Outcome, *, is_new: bool) -> None:
+        """Give the tangent up once the iterations that it took beyond those when new cost as much as a new one."""
+        if is_new:
+            self._when_new, self._excess = outcome.iterations, 0
+        self._excess += max(outcome.iterations - self._when_new, 0)
+        self._serves = self._serves and outcome.converged and self._excess < DEAR
+
+    def _watched(self, last: NDArray[np.float64] | None) -> Unwatched:
+        return Unwatched()
+
+    def _tangent(self, snes: PETSc.SNES, X: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
+        self._is_fresh = not self._serves
+        if self._is_fresh:
+            super()._tangent(snes, X, A, P)
+            self._h = self.problem.h
+            self._serves = True
+
+    def _expected(self, before: float, size: float) -> float:
+        """Next increment after these two, in the ratio of them, or smaller if the tangent is new."""
+        if not np.isfinite(before):
+            return np.inf
+        ratio = size / before
+        self._stalls = not self._is_fresh and ratio > SLOW
+        self._serves = not self._stalls or size < TOLERANCE
+        return size * ratio
+
+    def _settled(self) -> bool:
+        """A tangent that has served well serves on: where it does not any more, round-off is what is left."""
+        return self._next < NEGLIGIBLE or (self._size < TOLERANCE and (self._is_fresh or self._stalls))
