@@ -19,9 +19,11 @@ if TYPE_CHECKING:
 __all__ = ["Chord"]
 
 # Ratio of an increment to the one before, with a kept tangent, beyond which a new one costs less than more iterations.
-SLOW = 0.1
+SLOW = 0.01
+# A kept tangent makes small increments smaller by far more than this; where it does not, round-off is what is left.
+STALLED = 0.1
 # A new tangent costs about as much as this many iterations with an old one.
-DEAR = 5
+DEAR = 2
 # Steps that differ by less than this part have the same tangent, but for terms of that size.
 SAME = 1e-3
 
@@ -77,10 +79,9 @@ class Chord(Newton):
         if not np.isfinite(before):
             return np.inf
         ratio = size / before
-        self._stalls = not self._is_fresh and ratio > SLOW
-        self._serves = not self._stalls or size < TOLERANCE
+        self._stalls = not self._is_fresh and ratio > STALLED
+        self._serves = self._is_fresh or ratio <= SLOW or size < TOLERANCE
         return size * ratio
 
     def _settled(self) -> bool:
-        """A tangent that has served well serves on: where it does not any more, round-off is what is left."""
         return self._next < NEGLIGIBLE or (self._size < TOLERANCE and (self._is_fresh or self._stalls))
