@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["Chord"]
 
 # Ratio of an increment to the one before, with a kept tangent, beyond which a new one costs less than more iterations.
-SLOW = 0.01
+SLOW = 0.03
 # A kept tangent makes small increments smaller by far more than this; where it does not, round-off is what is left.
 STALLED = 0.1
 # A new tangent costs about as much as this many iterations with an old one.
