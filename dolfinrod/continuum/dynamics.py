@@ -19,7 +19,7 @@ from dolfinrod.continuum.schemes import EULER, MIDPOINT
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stepping import StepFailed
 from dolfinrod.result import Formulation, Result, Statistics
-from dolfinrod.scene import ImplicitEuler, Planar, SceneError, in_time
+from dolfinrod.scene import ImplicitEuler, Planar, in_time
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,18 +44,11 @@ def move(
     counts: tuple[int, ...],
     progress: Progress | None,
 ) -> tuple[Result, StepFailed | None]:
-    """The motion as far as it could be followed, and what stopped it, if anything did.
-
-    Raises:
-        SceneError: A section that damps, which this model does not know yet.
-    """
-    for k, rod in enumerate(scene.rods):
-        if rod.section.damping:
-            unknown = f"must be 0 s, the continuum model knows no damping yet, got {rod.section.damping} s"
-            raise SceneError(unknown, field=f"rods[{k}].section.damping")
+    """The motion as far as it could be followed, and what stopped it, if anything did."""
     started = time.perf_counter()
     rods: Kinematics = PlanarRods() if isinstance(kinematics, Planar) else SpatialRods()
-    with borrowed(comm, rods, degree, counts) as (discretization, is_new):
+    damped = any(rod.section.damping for rod in scene.rods)
+    with borrowed(comm, rods, degree, counts, damped=damped) as (discretization, is_new):
         scheme = EULER if isinstance(times.scheme, ImplicitEuler) else MIDPOINT
         problem = Moving(in_time(scene), discretization, Placement.of(scene, kinematics), scheme)
         begin(problem)
@@ -99,6 +92,7 @@ def _record(scene: Scene, march: March, readout: Readout, statistics: Statistics
     for field in set(unknowns) - {"N", "m"}:
         cells, nodes, components = states[0][field].shape
         unknowns[field] = (cells * (nodes - 1) + len(d.elements)) * components
+    damping = () if d.damping is None else ("Damping",)
     names, unit, second = march.ledger.rows[0], problem.placement.moment, problem.lumped.second
     return Result(
         scene=scene,
@@ -112,7 +106,7 @@ def _record(scene: Scene, march: March, readout: Readout, statistics: Statistics
         energy={name: unit * np.array([row[name] for row in march.ledger.rows]) for name in names},
         statistics=statistics,
         formulation=Formulation(
-            "continuum", d.kinematics.name, unknowns, (*problem.terms, "Inertia"), (problem.scheme.name,)
+            "continuum", d.kinematics.name, unknowns, (*problem.terms, "Inertia", *damping), (problem.scheme.name,)
         ),
         state=states[-1],
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from mpi4py import MPI
 
@@ -11,11 +11,16 @@ import ufl
 from dolfinrod.continuum import backend, reference
 from dolfinrod.continuum.terms.elastic import stored_energy, symmetric
 from dolfinrod.continuum.terms.gauge import node_condition
+from dolfinrod.continuum.terms.viscous import viscous_strains, viscous_work
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from dolfinrod.continuum.kinematics import Kinematics
 
-__all__ = ["Forms", "forms_of"]
+F = TypeVar("F")
+
+__all__ = ["DampingForms", "Forms", "damping_forms_of", "forms_of"]
 
 
 class Forms:
@@ -61,13 +66,61 @@ class Forms:
         self.line_load = backend.FormKind(comm, -ufl.inner(f, ufl.split(δx)[0]) * ds)
 
 
+class DampingForms:
+    """Residual and tangent of damping sections of one kind, to be added to those of the rods.
+
+    Forces act at x, the 1/a-th part of the way from x₀, before a step of length h, to x₁ = a x + (1 − a) x₀, after it.
+
+    Args:
+        comm: All its ranks call together.
+        kinematics: Spatial or planar.
+        degree: Degree of centreline and rotation.
+
+    Attributes:
+        elements: Name of each coefficient → its element: x, x₀, and τ/h with a.
+        coefficients: Name → its symbol in the forms.
+    """
+
+    def __init__(self, comm: MPI.Comm, kinematics: Kinematics, degree: int) -> None:
+        fields = ufl.MixedElement(kinematics.elements(degree))
+        self.elements = {"x": fields, "x_0": fields, "pace": backend.discontinuous(0, 2)}
+        spaces = backend.abstract_spaces(*self.elements.values())
+        x, x_0, pace, held = (ufl.Coefficient(V, count=i) for i, V in enumerate((*spaces, spaces[0])))
+        self.coefficients = dict(zip(self.elements, (x, x_0, pace), strict=True))
+        ratio, a = pace[0], pace[1]
+        before = ufl.split(x_0)
+        after = tuple(a * u + (1 - a) * u_0 for u, u_0 in zip(ufl.split(held), before, strict=True))
+        rates = viscous_strains(kinematics.configuration(after), kinematics.configuration(before), ratio)
+        ds = ufl.dx(domain=spaces[0].ufl_domain(), metadata={"quadrature_degree": 2 * degree})
+        work = viscous_work(kinematics.configuration(ufl.split(x)), *rates) * ds
+        residual = ufl.replace(ufl.derivative(work, x, ufl.TestFunction(spaces[0])), {held: x})
+        self.residual = backend.FormKind(comm, residual)
+        self.tangent = backend.FormKind(comm, ufl.derivative(residual, x, ufl.TrialFunction(spaces[0])))
+
+
 _KNOWN: dict[tuple[str, int], Forms] = {}
+_KNOWN_DAMPING: dict[tuple[str, int], DampingForms] = {}
 
 
 def forms_of(comm: MPI.Comm, kinematics: Kinematics, degree: int) -> Forms:
     """The forms of this kind, made at the first call in a process; collective."""
+    return _known(_KNOWN, Forms, comm, kinematics, degree)
+
+
+def damping_forms_of(comm: MPI.Comm, kinematics: Kinematics, degree: int) -> DampingForms:
+    """Those of damping, likewise."""
+    return _known(_KNOWN_DAMPING, DampingForms, comm, kinematics, degree)
+
+
+def _known(
+    known: dict[tuple[str, int], F],
+    make: Callable[[MPI.Comm, Kinematics, int], F],
+    comm: MPI.Comm,
+    kinematics: Kinematics,
+    degree: int,
+) -> F:
     key = (kinematics.name, degree)
     # A rank may have met this kind alone, on another communicator: compile together if any rank still has to.
-    if comm.allreduce(key not in _KNOWN, op=MPI.LOR):
-        _KNOWN[key] = Forms(comm, kinematics, degree)
-    return _KNOWN[key]
+    if comm.allreduce(key not in known, op=MPI.LOR):
+        known[key] = make(comm, kinematics, degree)
+    return known[key]

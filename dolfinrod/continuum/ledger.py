@@ -56,14 +56,15 @@ class Ledger:
         held = held[held < problem.discretization.n_owned]
         resisted = [float(part @ change) for part in parts]
         pushed = float(np.sum(parts, axis=0)[held] @ change[held])
-        sums = self._summed([*self._energies(), *resisted, pushed])
+        sums = self._summed([*self._energies(), *resisted, pushed, self._strain.dissipated])
         self._now = dict(zip(STORED, sums, strict=False))
         gained = {name: self._now[name] - before[name] for name in before}
-        inertia, elastic, loads, drag, support = sums[len(STORED) :]
+        inertia, elastic, loads, drag, support, dissipated = sums[len(STORED) :]
         self._works["load work"] += gained["potential"] - loads
         self._works["drag"] -= drag
         self._works["support work"] += support
-        self._works["numerical"] += gained["kinetic"] + gained["strain"] - inertia - elastic
+        self._works["damping"] -= dissipated
+        self._works["numerical"] += gained["kinetic"] + gained["strain"] - inertia - elastic + dissipated
 
     def _forces(self) -> list[Array]:
         """Residuals of the step's parts at this rank's own dofs, along the sphere of the balance."""

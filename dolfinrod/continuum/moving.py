@@ -85,6 +85,7 @@ class Moving(Problem):
         self._before[:] = self.x
         self._start = self.motion
         self.h = dt / self.lumped.second
+        self.discretization.begin_step(self._before, dt, self.scheme.level)
         self.advance_to(t + self.scheme.level * dt)
         self.x[self.constraints.dofs] = self.constraints.values(t + dt)
         self._r_0 = self._before[self.lumped.r]

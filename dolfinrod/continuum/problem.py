@@ -112,6 +112,7 @@ class Problem:
             r_0=r_0,
             C_n=exact_zeros(np.einsum("cqij,cj,cqkj->cqik", directions, c_n[self.rod], directions), axis=(2, 3)),
             C_m=exact_zeros(np.einsum("cqij,cj,cqkj->cqik", self.spins, c_m[self.rod], self.spins), axis=(2, 3)),
+            τ=np.array([section.damping for section in sections])[self.rod],
         )
         d.set(self.values)
         self.R_0 = self._on_rods(self.s, "frames")

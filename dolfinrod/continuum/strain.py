@@ -2,6 +2,7 @@
 
 Between two steps of the midpoint rule positions and rotations are known, forces and moments only at the mean state.
 Those of the strains are those of the mixed form, C N = γ on each element; a rigid strain leaves them as they are.
+Where sections damp, those of the rates in the step behind come to them, C N = γ + τ γ̇.
 """
 
 from __future__ import annotations
@@ -17,10 +18,12 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from dolfinrod.continuum.damping import Damping
     from dolfinrod.continuum.problem import Problem
 
     Array = NDArray[np.float64]
     Solve = Callable[[Array, Array, Array], tuple[Array, Array]]
+    Law = tuple[str, Solve, Array]
 
 __all__ = ["Strain"]
 
@@ -33,6 +36,9 @@ class Strain:
 
     Args:
         problem: Owner of the state.
+
+    Attributes:
+        dissipated: This rank's part of the energy that damping took in the step behind, in EI/L.
     """
 
     def __init__(self, problem: Problem) -> None:
@@ -46,22 +52,41 @@ class Strain:
         self._C_n, C_m = problem.values.C_n[self._mine], problem.values.C_m[self._mine]
         self._solve_n, self._solve_m = _solver(self._C_n), _solver(C_m)
         self._blocks_m = self._blocks(C_m)
+        self.dissipated = 0.0
 
     def settle(self) -> float:
-        """Give the state the resultants of its strains; this rank's strain energy in EI/L."""
+        """Give the state the resultants of its strains and of any rates; this rank's strain energy in EI/L."""
         p, d = self._problem, self._problem.discretization
         kept = {f: p.x[at] for f, at in self._dofs.items()}
         for at in self._dofs.values():
             p.x[at] = 0.0
-        strains = d.assembled_residual()
+        strains = d.elastic_residual()
         energy = 0.0
-        for field, solve, C in (("N", self._solve_n, self._turned()), ("m", self._solve_m, self._blocks_m)):
+        laws: list[Law] = [("N", self._solve_n, self._turned()), ("m", self._solve_m, self._blocks_m)]
+        for field, solve, C in laws:
             g, old = strains[self._dofs[field]], kept[field]
             found, rigid = solve(C, g, old)
             energy += 0.5 * float(np.vdot(g, found))
             p.x[self._dofs[field]] = found + rigid
+        if d.damping is not None:
+            self._add_viscous(d.damping, laws)
         d.x.x.scatter_forward()
         return energy
+
+    def _add_viscous(self, damping: Damping, laws: list[Law]) -> None:
+        """Add the resultants of the rates, whose work on the change of the strains is what damping took."""
+        damping.end()
+        rates = damping.rates()
+        power = np.zeros(len(damping.ratio[self._mine]))
+        for field, solve, C in laws:
+            at = self._dofs[field]
+            found, _ = solve(C, rates[at], np.zeros(at.shape))
+            power += np.einsum("ci,ci->c", rates[at], found)
+            damping.resultants[at] = found
+            self._problem.x[at] += found
+        ratio = damping.ratio[self._mine]
+        moving = ratio > 0.0
+        self.dissipated = float((power[moving] / ratio[moving]).sum())
 
     def _turned(self) -> Array:
         """∫ φ φ R C Rᵀ of each element, R at its Gauss points."""

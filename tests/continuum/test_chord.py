@@ -60,3 +60,16 @@ def test_smooth_motion_is_foreseen():
         predictor.learn(t)
     assert MOST_STATES == 4
     assert error <= 1e-12
+
+
+@pytest.mark.parametrize("rigid", [(), ("shear", "extension")], ids=["elastic", "rigid"])
+@both_kinematics
+def test_round_off_in_the_forces_of_thin_fibres_is_accepted(kinematics, rigid):
+    """A fibre 2000 times as long as thick, at 1 μs: round-off of its nodes is 1e-8 of its forces, and no iteration helps."""
+    fibre = dr.Rod.straight(0.04, dr.Section.ramie(rigid=rigid))
+    spin = [dr.Velocity(omega=(0.0, 0.0, 20.0))]
+    motion = dr.Dynamic(2e-5, 1e-6, dr.Midpoint(), output=2e-5)
+    scene = dr.Scene([fibre], [dr.Clamp("start")], [dr.Gravity((0.0, -9.81, 0.0))], velocities=spin, motion=motion)
+    result = dr.solve(scene, elements=8, kinematics=kinematics)
+    assert len(result.log) == 20
+    assert result.statistics.newton_iterations <= 6 * 20

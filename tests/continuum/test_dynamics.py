@@ -206,21 +206,3 @@ def test_an_interrupted_run_keeps_what_it_reached():
         dr.solve(thrown(dr.Dynamic(t_end=0.2, dt=0.01)), progress=stop, **MESH)
     assert caught.value.result.t[-1] == pytest.approx(0.05)
     assert not caught.value.result.converged
-
-
-@pytest.mark.parametrize(
-    ("scene", "words"),
-    [
-        (
-            dr.Scene(
-                [FLAT.straight(dr.Section(EA=1.0, GA=1.0, GJ=1.0, EI=1.0, rhoA=1.0, rhoI=(1, 1, 1), damping=0.1))],
-                motion=dr.Dynamic(t_end=1.0, dt=0.1),
-            ),
-            "section.damping must be 0 s",
-        ),
-    ],
-    ids=["damping"],
-)
-def test_what_is_not_there_yet_is_refused(scene, words):
-    with pytest.raises(dr.SceneError, match=words):
-        dr.solve(scene, **MESH)
