@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.continuum.couples import Couples
 from dolfinrod.continuum.ledger import Ledger
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.pace import Pace
@@ -98,6 +99,7 @@ class March:
         self.newton, self._readout, self.trajectory, self._progress = newton, readout, trajectory, progress
         self.problem, self._times = problem, times
         self.ledger, self._predictor = Ledger(problem), Predictor(problem)
+        self._couples = Couples(problem) if problem.lumped.J.any() else None
         order = problem.scheme.order + 1
         if times.dt is None:
             first = FIRST * min(problem.lumped.second, times.t_end)
@@ -156,7 +158,10 @@ class March:
 
     def _store(self, t: float) -> None:
         self.trajectory.t.append(t)
-        self.trajectory.states.append(self._readout.state() | self.problem.rates(self._readout))
+        state = self._readout.state() | self.problem.rates(self._readout)
+        if self._couples is not None:
+            state |= self._readout.gather(couples=self._couples.rates())
+        self.trajectory.states.append(state)
         self.ledger.store()
 
 

@@ -81,7 +81,7 @@ class Readout:
         """One history a rod from the gathered states."""
         p = self.problem
         reference = self.gather(s=p.s, R_0=p.R_0)
-        used = {"r", "q", "N", "nodal", "N_viscous", "m_viscous"}.intersection(states[0])
+        used = {"r", "q", "N", "nodal", "couples", "N_viscous", "m_viscous"}.intersection(states[0])
         stacked = {f: np.stack([state[f] for state in states]) for f in used}
         s, R_0 = reference["s"][:, self._order], reference["R_0"][:, self._order]
         first = np.concatenate([[0], np.cumsum(p.discretization.elements)])
@@ -103,8 +103,9 @@ class Readout:
         p, place = self.problem, self.problem.placement
         r, q = (_joined(states[f][:, cells][:, :, self._order]) for f in ("r", "q"))
         r_e, q_e, N_e, nodal = (states[f][:, cells] for f in ("r", "q", "N", "nodal"))
+        couples = states["couples"][:, cells] if "couples" in states else None
         N = _averaged(np.einsum("na,tcai->tcni", self._to_nodes, N_e))
-        m = _averaged(self._sections.moments(r_e, N_e, q_e[:, :, 0], nodal[:, :, 0]))
+        m = _averaged(self._sections.moments(r_e, N_e, q_e[:, :, 0], nodal[:, :, 0], couples))
         frames_0 = _joined(R_0.reshape(1, *R_0.shape[:2], 9))[0].reshape(-1, 3, 3)
         turned = p.kinematics.turned_frames(q, place.spin_axes, frames_0)
         n = np.einsum("tsji,tsj->tsi", turned, N @ place.axes.T) * place.force

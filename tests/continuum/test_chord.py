@@ -65,7 +65,7 @@ def test_smooth_motion_is_foreseen():
 @pytest.mark.parametrize("rigid", [(), ("shear", "extension")], ids=["elastic", "rigid"])
 @both_kinematics
 def test_round_off_in_the_forces_of_thin_fibres_is_accepted(kinematics, rigid):
-    """A fibre 2000 times as long as thick, at 1 μs: round-off of its nodes is 1e-8 of its forces, and no iteration helps."""
+    """A fibre 2000 times as long as thick, at 1 μs: round-off of its nodes is 1e-8 of its forces, iterate or not."""
     fibre = dr.Rod.straight(0.04, dr.Section.ramie(rigid=rigid))
     spin = [dr.Velocity(omega=(0.0, 0.0, 20.0))]
     motion = dr.Dynamic(2e-5, 1e-6, dr.Midpoint(), output=2e-5)
