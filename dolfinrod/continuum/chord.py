@@ -22,8 +22,6 @@ __all__ = ["Chord"]
 SLOW = 0.03
 # A tangent that has served makes increments smaller by more than this, until round-off is what is left.
 STALLED = 0.1
-# Turns [rad] and displacements [L] that are nothing but round-off.
-ROUND_OFF = 1e-14
 # A new tangent costs about as much as this many iterations with an old one.
 DEAR = 2
 # Steps that differ by less than this part have the same tangent, but for terms of that size.
@@ -90,4 +88,4 @@ class Chord(Newton):
         """Also where round-off is left: in stiff rods that of the positions is more than `TOLERANCE` of the forces."""
         if self._next < NEGLIGIBLE or (self._is_fresh and self._size < TOLERANCE):
             return True
-        return self._stalls and (self._size < TOLERANCE or self._moved < ROUND_OFF)
+        return self._stalls and (self._size < TOLERANCE or self._moved < NEGLIGIBLE)

@@ -47,9 +47,9 @@ def move(
     """The motion as far as it could be followed, and what stopped it, if anything did."""
     started = time.perf_counter()
     rods: Kinematics = PlanarRods() if isinstance(kinematics, Planar) else SpatialRods()
-    damped = any(rod.section.damping for rod in scene.rods)
-    with borrowed(comm, rods, degree, counts, damped=damped) as (discretization, is_new):
-        scheme = EULER if isinstance(times.scheme, ImplicitEuler) else MIDPOINT
+    scheme = EULER if isinstance(times.scheme, ImplicitEuler) else MIDPOINT
+    stepped = scheme is MIDPOINT or any(rod.section.damping for rod in scene.rods)
+    with borrowed(comm, rods, degree, counts, stepped=stepped) as (discretization, is_new):
         problem = Moving(in_time(scene), discretization, Placement.of(scene, kinematics), scheme)
         begin(problem)
         newton, readout, trajectory = Chord(problem), Readout(problem), Trajectory()
@@ -92,7 +92,8 @@ def _record(scene: Scene, march: March, readout: Readout, statistics: Statistics
     for field in set(unknowns) - {"N", "m"}:
         cells, nodes, components = states[0][field].shape
         unknowns[field] = (cells * (nodes - 1) + len(d.elements)) * components
-    damping = () if d.damping is None else ("Damping",)
+    damping = ("Damping",) if any(rod.section.damping for rod in scene.rods) else ()
+    drag = () if scene.air is None else ("Drag",)
     names, unit, second = march.ledger.rows[0], problem.placement.moment, problem.lumped.second
     return Result(
         scene=scene,
@@ -106,7 +107,11 @@ def _record(scene: Scene, march: March, readout: Readout, statistics: Statistics
         energy={name: unit * np.array([row[name] for row in march.ledger.rows]) for name in names},
         statistics=statistics,
         formulation=Formulation(
-            "continuum", d.kinematics.name, unknowns, (*problem.terms, "Inertia", *damping), (problem.scheme.name,)
+            model="continuum",
+            kinematics=d.kinematics.name,
+            unknowns=unknowns,
+            terms=(*problem.terms, "Inertia", *drag, *damping),
+            notes=(problem.scheme.name,),
         ),
         state=states[-1],
     )

@@ -29,16 +29,16 @@ _IDLE: dict[str, OrderedDict[tuple[str, int, tuple[int, ...], bool], Discretizat
 
 @contextmanager
 def borrowed(
-    comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...], *, damped: bool = False
+    comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...], *, stepped: bool = False
 ) -> Iterator[tuple[Discretization, bool]]:
     """A discretization for the time of one solve, and whether it was made for it.
 
     It leaves the pool while in use, so a solve started from within another one gets its own.
     """
     idle = _IDLE["world"] if comm == MPI.COMM_WORLD else _IDLE["self"] if comm == MPI.COMM_SELF else None
-    key = (kinematics.name, degree, elements, damped)
+    key = (kinematics.name, degree, elements, stepped)
     found = None if idle is None else idle.pop(key, None)
-    discretization = Discretization(comm, kinematics, degree, elements, damped=damped) if found is None else found
+    discretization = Discretization(comm, kinematics, degree, elements, stepped=stepped) if found is None else found
     yield discretization, found is None
     if idle is not None:
         idle[key] = discretization

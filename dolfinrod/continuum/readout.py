@@ -56,8 +56,8 @@ class Readout:
         d, x = self.problem.discretization, self.problem.x
         nodal = d.assembled_residual()[d.dofs["q"]]
         fields = {field: x[dofs] for field, dofs in d.dofs.items()}
-        if d.damping is not None:
-            fields |= {f"{f}_viscous": d.damping.resultants[d.dofs[f]] for f in ("N", "m")}
+        if d.excess is not None and any(rod.section.damping for rod in self.problem.scene.rods):
+            fields |= {f"{f}_viscous": d.excess.resultants[d.dofs[f]] for f in ("N", "m")}
         return self.gather(nodal=nodal, **fields)
 
     def restore(self, state: State) -> None:

@@ -7,6 +7,7 @@ Where sections damp, those of the rates in the step behind come to them, C N = Î
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from dolfinrod.continuum.damping import Damping
+    from dolfinrod.continuum.excess import Excess
     from dolfinrod.continuum.problem import Problem
 
     Array = NDArray[np.float64]
@@ -50,8 +51,9 @@ class Strain:
         self._weights = np.diff(problem.ends[self._mine], axis=1) * reference.quadrature_weights(2 * d.degree)
         self._dofs = {f: d.dofs[f][self._mine].reshape(d.n_owned_cells, -1) for f in ("N", "m")}
         self._C_n, C_m = problem.values.C_n[self._mine], problem.values.C_m[self._mine]
-        self._solve_n, self._solve_m = _solver(self._C_n), _solver(C_m)
+        self._solve_n, self._solve_m = _solver(self._C_n, d.degree), _solver(C_m, d.degree)
         self._blocks_m = self._blocks(C_m)
+        self._damps = any(rod.section.damping for rod in problem.scene.rods)
         self.dissipated = 0.0
 
     def settle(self) -> float:
@@ -68,23 +70,24 @@ class Strain:
             found, rigid = solve(C, g, old)
             energy += 0.5 * float(np.vdot(g, found))
             p.x[self._dofs[field]] = found + rigid
-        if d.damping is not None:
-            self._add_viscous(d.damping, laws)
+        if d.excess is not None:
+            d.excess.end()
+        if d.excess is not None and self._damps:
+            self._add_viscous(d.excess, laws)
         d.x.x.scatter_forward()
         return energy
 
-    def _add_viscous(self, damping: Damping, laws: list[Law]) -> None:
+    def _add_viscous(self, excess: Excess, laws: list[Law]) -> None:
         """Add the resultants of the rates, whose work on the change of the strains is what damping took."""
-        damping.end()
-        rates = damping.rates()
-        power = np.zeros(len(damping.ratio[self._mine]))
+        rates = excess.rates()
+        power = np.zeros(len(excess.ratio[self._mine]))
         for field, solve, C in laws:
             at = self._dofs[field]
             found, _ = solve(C, rates[at], np.zeros(at.shape))
             power += np.einsum("ci,ci->c", rates[at], found)
-            damping.resultants[at] = found
+            excess.resultants[at] = found
             self._problem.x[at] += found
-        ratio = damping.ratio[self._mine]
+        ratio = excess.ratio[self._mine]
         moving = ratio > 0.0
         self.dissipated = float((power[moving] / ratio[moving]).sum())
 
@@ -103,10 +106,13 @@ class Strain:
         return np.asarray(np.swapaxes(blocks.reshape(cells, k, k, dim, dim), 2, 3).reshape(cells, k * dim, k * dim))
 
 
-def _solver(C: Array) -> Solve:
-    """How strains give resultants, for such compliances at the Gauss points."""
+def _solver(C: Array, nodes: int) -> Solve:
+    """How strains give resultants of that many nodes an element, for such compliances at the Gauss points."""
     eigenvalues = np.linalg.eigvalsh(C)
-    return _with_rigid if (eigenvalues <= RIGID * eigenvalues.max(initial=0.0)).any() else _elastic
+    elastic = (eigenvalues > RIGID * eigenvalues.max(initial=0.0)).sum(axis=2)
+    if elastic.min(initial=C.shape[-1]) == C.shape[-1]:
+        return _elastic
+    return partial(_with_rigid, nodes * elastic.min(axis=1))
 
 
 def _elastic(C: Array, g: Array, old: Array) -> tuple[Array, Array]:
@@ -114,8 +120,18 @@ def _elastic(C: Array, g: Array, old: Array) -> tuple[Array, Array]:
     return np.linalg.solve(C, g[:, :, None])[:, :, 0], np.zeros_like(old)
 
 
-def _with_rigid(C: Array, g: Array, old: Array) -> tuple[Array, Array]:
-    """Resultants of the strains g, and the part of the old ones that strains nothing."""
-    inverse = np.linalg.pinv(C, RIGID, hermitian=True)
-    elastic = inverse @ np.stack([g, (C @ old[:, :, None])[:, :, 0]], axis=2)
-    return elastic[:, :, 0], old - elastic[:, :, 1]
+def _with_rigid(elastic: NDArray[np.int64], C: Array, g: Array, old: Array) -> tuple[Array, Array]:
+    """Resultants of the strains g along the softest directions of each element, the old ones along the others.
+
+    Args:
+        elastic: How many directions strain; where an element is bent, the others are not quite at zero compliance.
+        C: Compliances of the elements.
+        g: Strains.
+        old: Resultants before.
+    """
+    compliance, V = np.linalg.eigh(C)
+    n = C.shape[1]
+    soft = np.arange(n) >= n - elastic[:, None]
+    along = np.einsum("cji,cj->ci", V, g) * np.divide(soft, compliance, out=np.zeros_like(compliance), where=soft)
+    rigid = np.where(soft, 0.0, np.einsum("cji,cj->ci", V, old))
+    return (V @ along[:, :, None])[:, :, 0], (V @ rigid[:, :, None])[:, :, 0]

@@ -1,4 +1,4 @@
-"""Sections that damp, Kelvin-Voigt: what the rates of the strains in a step add to the forms of its rods."""
+"""Strains that resultants follow beside those of the state at which they act: the mean of a step, and rates."""
 
 from __future__ import annotations
 
@@ -14,13 +14,17 @@ if TYPE_CHECKING:
     from dolfinx import fem
     from numpy.typing import NDArray
 
-    from dolfinrod.continuum.forms import DampingForms
+    from dolfinrod.continuum.forms import ExcessForms
 
-__all__ = ["Damping", "Sum"]
+__all__ = ["Excess", "Sum"]
 
 
-class Damping:
-    """Forms of damping on a mesh, and the step whose rates they take.
+class Excess:
+    """Forms of such strains on a mesh, and the step that they are of.
+
+    Between the ends of a step nodes go along straight lines, and a rod that turns as a whole is shorter there: strains
+    of that state would make it swell and, in long steps, burst. So the midpoint rule takes the mean of the strains at
+    both ends. Sections that damp add the rates (Kelvin-Voigt).
 
     Args:
         forms: What is integrated.
@@ -33,25 +37,25 @@ class Damping:
         resultants: Of the rates in the step behind, on all local dofs, those of N and m.
     """
 
-    def __init__(self, forms: DampingForms, x: fem.Function) -> None:
+    def __init__(self, forms: ExcessForms, x: fem.Function) -> None:
         space = x.function_space
         self._x_0, self._sum = backend.function(space), backend.function(space)
-        self._pace = backend.function(backend.space(space.mesh, forms.elements["pace"]))
-        functions = {"x": x, "x_0": self._x_0, "pace": self._pace}
+        self._weights = backend.function(backend.space(space.mesh, forms.elements["weights"]))
+        functions = {"x": x, "x_0": self._x_0, "weights": self._weights}
         values = {forms.coefficients[name]: function for name, function in functions.items()}
         self.residual = backend.BoundForm(forms.residual, [space], values)
         self.tangent = backend.BoundForm(forms.tangent, [space, space], values)
-        self._cells = backend.cell_dofs(self._pace.function_space)[:, 0]
+        self._cells = backend.cell_dofs(self._weights.function_space)[:, 0]
         self.ratio = np.zeros(len(self._cells))
         self.resultants = np.zeros_like(x.x.array)
 
     def scatter(self, random: np.random.Generator) -> None:
         """A state and a step that make nothing zero by chance."""
-        for function in (self._x_0, self._pace):
+        for function in (self._x_0, self._weights):
             function.x.array[:] = random.uniform(1.0, 2.0, len(function.x.array))
 
     def begin(self, x_0: NDArray[np.float64], ratio: NDArray[np.float64], level: float) -> None:
-        """Take the rates of a step from a state on.
+        """Take the strains of a step from a state on.
 
         Args:
             x_0: The state before it, all local dofs.
@@ -60,20 +64,25 @@ class Damping:
         """
         self._x_0.x.array[:] = x_0
         self.ratio = ratio
-        self._pace.x.array[self._cells] = np.stack([ratio, np.full_like(ratio, 1.0 / level)], axis=1)
+        self._weigh(ratio + level, 1.0 - level - ratio, 1.0, 1.0 / level)
 
     def end(self) -> None:
         """Take forces at the state after the step, with the rates of the step that led there."""
-        self._pace.x.array[self._cells[:, 1]] = 1.0
+        self._weigh(self.ratio, -self.ratio, 0.0, 1.0)
 
     def rest(self) -> None:
         """No step, no rates."""
         self.ratio = np.zeros(len(self._cells))
         self.resultants[:] = 0.0
-        self._pace.x.array[:] = 0.0
+        self._weights.x.array[:] = 0.0
+
+    def _weigh(self, *weights: NDArray[np.float64] | float) -> None:
+        """Weights of the strains after the step, before it and here, and how far on the step leads."""
+        for component, weight in enumerate(weights):
+            self._weights.x.array[self._cells[:, component]] = weight
 
     def rates(self) -> NDArray[np.float64]:
-        """Residual of damping at the current state, summed over all ranks: ∫ ψ τ γ̇ ds and ∫ ψ τ κ̇ ds by N and m."""
+        """Residual of the rates at the current state, summed over all ranks: ∫ ψ τ γ̇ ds and ∫ ψ τ κ̇ ds by N and m."""
         b = self._sum
         b.x.array[:] = 0.0
         self.residual.add_vector(b.x.array)
