@@ -70,6 +70,15 @@ class Excess:
         """Take forces at the state after the step, with the rates of the step that led there."""
         self._weigh(self.ratio, -self.ratio, 0.0, 1.0)
 
+    def step(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """The step behind: the state before it, τ/h and resultants of the rates, copied."""
+        return self._x_0.x.array.copy(), self.ratio.copy(), self.resultants.copy()
+
+    def after(self, step: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]) -> None:
+        """Be again at the end of such a step."""
+        self._x_0.x.array[:], self.ratio, self.resultants[:] = step
+        self.end()
+
     def rest(self) -> None:
         """No step, no rates."""
         self.ratio = np.zeros(len(self._cells))

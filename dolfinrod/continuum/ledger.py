@@ -11,6 +11,8 @@ import numpy as np
 from dolfinrod.continuum.strain import Strain
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.moving import Moving
@@ -41,7 +43,16 @@ class Ledger:
 
     def store(self) -> None:
         """Keep what it is now."""
-        self.rows.append(self._now | self._works)
+        self.rows.append(self.now())
+
+    def now(self) -> dict[str, float]:
+        """What it is now."""
+        return self._now | self._works
+
+    def rewind(self, now: Mapping[str, float], stored: int) -> None:
+        """Be what `now` said earlier, with the first rows that were stored."""
+        self._now, self._works = ({name: now[name] for name in part} for part in (self._now, self._works))
+        del self.rows[stored:]
 
     def strain(self) -> float:
         """Strain energy after the last step."""

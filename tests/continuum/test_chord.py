@@ -50,7 +50,7 @@ def test_smooth_motion_is_foreseen():
     problem = Moving(
         scene, Discretization(MPI.COMM_SELF, SpatialRods(), 3, (4,)), Placement.of(scene, dr.Spatial()), MIDPOINT
     )
-    predictor, r = Predictor(problem), np.setdiff1d(problem.lumped.r, problem.constraints.dofs)
+    predictor, r = Predictor(problem, 0.0), np.setdiff1d(problem.lumped.r, problem.constraints.dofs)
     start, shape = problem.x.copy(), np.random.default_rng(0).normal(size=(3, len(r)))
     problem.h = 0.0
     for t in np.cumsum([0.1, 0.12, 0.1, 0.07, 0.1, 0.1]):
