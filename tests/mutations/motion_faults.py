@@ -13,12 +13,13 @@ from discrete.drag import Drag as DiscreteDrag
 from discrete.loads import Loads
 from discrete.momentum import Inertia
 from discrete.step import Step
-from dolfinrod.continuum import moving
+from dolfinrod.continuum import moving, turning
 from dolfinrod.continuum.discretization import Discretization
 from dolfinrod.continuum.drag import Drag
+from dolfinrod.continuum.excess import Excess
 from dolfinrod.continuum.lumped import Lumped
 from dolfinrod.continuum.motion import Motion
-from dolfinrod.continuum.moving import Moving
+from dolfinrod.continuum.turning import Turning
 from tests.mutations.planting import Plant, all_of, replaced
 from tests.scenes import Array
 
@@ -62,11 +63,15 @@ def _at_rest_before(right: Any, self: Damping, dt: float, before: Any) -> Any:
     return right(self, dt, replace(before, θ=0.0 * before.θ, ε=0.0 * before.ε))
 
 
-def _carried_along(right: Any, self: Moving) -> Array:
+def _carried_along(right: Any, self: Turning, q: Array) -> Array:
     """Momentum that turns with its section: without ω × Jω."""
-    q = self.lumped.q
-    start, kin = self._start.π, self.kinematics
-    return right(self) + start - kin.turned_spin(self.x[q], kin.turned_back(self._before[q], start))
+    return right(self, q) + self._kin.turned_back(q, self._π_0) - self._kin.turned_back(self._q_0, self._π_0)
+
+
+def _strain_as_rate(right: Any, self: Excess, x_0: Array, ratio: Array, level: float) -> None:
+    """The strain itself over Δt in place of its change."""
+    right(self, x_0, ratio, level)
+    self._weigh(ratio + level, 1.0 - level, 1.0, 1.0 / level)
 
 
 def _turned_inertia(right: Any, kin: Any, J: Array, q_0: Array, *rest: Any) -> Any:
@@ -110,9 +115,11 @@ PUSHED_BY_AIR = all_of(replaced(DiscreteDrag, "force", _minus), replaced(Discret
 TWICE_THE_WEIGHT = replaced(Loads, "_per_element", lambda f, self, load: 2.0 * f(self, load))
 NO_RATE = replaced(Damping, "over", _at_rest_before)
 
-NO_GYROSCOPIC_TERM = replaced(Moving, "_gained", _carried_along)
-INERTIA_HELD_IN_SPACE = replaced(moving, "momentum", _turned_inertia)
-MEAN_MOMENTUM = replaced(moving, "momentum", lambda f, *args: f(*args[:-1], 0.0))
+MOMENTA = ("momentum", "momentum_gradient")
+NO_GYROSCOPIC_TERM = replaced(Turning, "_gained", _carried_along)
+INERTIA_HELD_IN_SPACE = all_of(*(replaced(turning, name, _turned_inertia) for name in MOMENTA))
+MEAN_MOMENTUM = all_of(*(replaced(turning, name, lambda f, *args: f(*args[:-1], 0.0)) for name in MOMENTA))
+STRAIN_AS_RATE = replaced(Excess, "begin", _strain_as_rate)
 MEAN_VELOCITY = replaced(moving, "Motion", _mean_velocity)
 WHOLE_END_NODES = replaced(Lumped, "of", _whole_end_nodes)
 HALF_BETWEEN = replaced(Lumped, "of", _half_between)

@@ -62,4 +62,5 @@ MUTATIONS = (
     Mutation(
         "damping without rate, discrete", "the strain itself over Δt, not its change", "discrete", "settled", m.NO_RATE
     ),
+    Mutation("damping without rate, continuum", "the same", "spatial", "settled", m.STRAIN_AS_RATE),
 )
