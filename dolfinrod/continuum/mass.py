@@ -32,7 +32,7 @@ def inertia(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     for k, rod in enumerate(scene.rods):
         for name, unit, none in (("rhoA", "kg/m", ""), ("rhoI", "kg m", "; (0, 0, 0) for none")):
             if getattr(rod.section, name) is None:
-                needed = f"must be given [{unit}] for vibrations{none}, got None"
+                needed = f"must be given [{unit}] for motion and vibrations{none}, got None"
                 raise SceneError(needed, field=f"rods[{k}].section.{name}")
     sections = [rod.section for rod in scene.rods]
     return np.array([s.rhoA for s in sections], dtype=float), np.array([s.rhoI for s in sections], dtype=float)

@@ -13,7 +13,7 @@ J = (1.0, 2.0, 3.0)
 TOP = dr.Section(EA=1e4, GA=1e4, GJ=1e4, EI=1e4, rhoA=1e-2, rhoI=J)
 # Three different inertias and stiffnesses, thick enough for its turning to count.
 THICK = dr.Section(EA=1200.0, GA=(400.0, 300.0), GJ=0.8, EI=(1.0, 2.0), rhoA=1.0, rhoI=(3e-2, 1e-2, 2e-2))
-DAMPED = dr.Section(EA=900.0, GA=400.0, GJ=0.8, EI=1.0, rhoA=1.0, damping=0.5)
+DAMPED = dr.Section(EA=900.0, GA=400.0, GJ=0.8, EI=1.0, rhoA=1.0, rhoI=(0.0, 0.0, 0.0), damping=0.5)
 EULER, MIDPOINT = dr.ImplicitEuler(), dr.Midpoint()
 # K7 of shared/reference/cases.json: J = (1, 2, 3), Ω in the body at t = 0 and t = 1; Euler's equations by DOP853.
 SPUN, SPUN_AT_1 = np.array([0.1, 1.0, 0.1]), np.array([0.011223551541003313, 1.0049248886811426, 0.0819063858096416])
