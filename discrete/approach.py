@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from discrete.step import Step
 
     Array = NDArray[np.float64]
-    Solve = Callable[[Step, Array, Array, Array], Array]
+    Solve = Callable[[Step, Array, Array], Array]
 
 __all__ = ["approach"]
 
@@ -44,7 +44,7 @@ def approach(step: Step, mesh: Mesh, law: Element, solve: Solve) -> int:
         step: Its first guess; moves.
         mesh: Nodes and elements.
         law: Of the elements in this step.
-        solve: Increments for given end forces and their derivative at a configuration R.
+        solve: Increments by rows for given end forces and their derivative.
 
     Returns:
         Linear systems solved.
@@ -53,7 +53,7 @@ def approach(step: Step, mesh: Mesh, law: Element, solve: Solve) -> int:
         StepLostError: The sections turned back and forth, or too far to tell which way.
     """
     node_i = mesh.elements.node_i
-    x, R = step.configuration()
+    x, R = _configuration(step)
     e = x[node_i + 1] - x[node_i]
     u = e / np.sqrt(np.einsum("ni,ni->n", e, e))[:, None]
     change, spent, watch = np.inf, 0, Watch(mesh.elements, R)
@@ -62,8 +62,8 @@ def approach(step: Step, mesh: Mesh, law: Element, solve: Solve) -> int:
         turn = max(_largest(d[:, SPIN]), _largest(spin))
         bite = min(1.0, LARGEST_TURN / turn) if turn > 0.0 else 1.0
         d[:, SPIN] *= bite
-        step.move(d)
-        x, R = step.configuration()
+        step.move(d.T)
+        x, R = _configuration(step)
         u = np.matmul(exp(bite * spin), u[:, :, None])[:, :, 0]
         step.F_n = law.axial(N, u, mesh.elements.triads(R))
         change, spent = max(turn, float(np.abs(d[:, X]).max())), spent + 1
@@ -84,10 +84,16 @@ def _asked_for(
     force, tangent = law.respond(e, E, step.F_n)
     end = tangent[:, X_J].copy()
     force += np.matmul(tangent[:, :, X_J], gap[:, :, None])[:, :, 0]
-    d = solve(step, force, tangent, R)
+    d = solve(step, force, tangent).T
     own = gather(d, node_i)
     N = force[:, X_J] + np.matmul(end, own[:, :, None])[:, :, 0]
     return d, N, chord_spin(u, own[:, X_J] - own[:, X_I] + gap, 0.5 * (own[:, SPIN_I] + own[:, SPIN_J]), e)
+
+
+def _configuration(step: Step) -> tuple[Array, Array]:
+    """Positions and section frames, shapes (n_nodes, 3) and (n_nodes, 3, 3)."""
+    x, R = step.configuration()
+    return x.T, R.transpose(2, 0, 1)
 
 
 def _largest(vectors: Array) -> float:

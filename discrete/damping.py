@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,21 +45,15 @@ class Damping:
     """
 
     def __init__(self, elements: Elements, sections: Sequence[Section], *, paper_strain: bool) -> None:
-        self._elements, self._paper_strain = elements, paper_strain
+        self._elements = elements
         self._elastic = QuickElement(elements, paper_strain=paper_strain)
         self._τ = np.array([section.damping for section in sections])[elements.rod]
 
     def over(self, dt: float, before: Strain) -> QuickElement:
         """The law of a step that begins at a strain: stiffness (1 + τ/Δt) k, minus (τ/Δt) k Δ₀."""
         ratio = self._τ / dt
-        stiffer = replace(
-            self._elements,
-            k_star=self._elements.k_star * (1.0 + ratio)[:, None, None],
-            compliance=self._elements.compliance / (1.0 + ratio),
-            l_0=self._elements.l_0 + ratio / (1.0 + ratio) * before.ε,
-        )
         behind = ratio[:, None, None] * self._elastic.moments(before.θ)
-        return QuickElement(stiffer, paper_strain=self._paper_strain, behind=behind)
+        return self._elastic.changed(1.0 + ratio, self._elements.l_0 + ratio / (1.0 + ratio) * before.ε, behind)
 
     def strain(self, e: Array, E: Array) -> Strain:
         """Deformation; arguments as for `ChordElement.measure`."""
@@ -79,5 +73,5 @@ class Damping:
 
     def _work(self, strain: Strain, weight: Array) -> float:
         """Sum over the elements of weight · Δ·k Δ."""
-        own = np.einsum("nai,nai->n", strain.θ, self._elastic.moments(strain.θ))
+        own = np.einsum("ian,ian->n", strain.θ.T, self._elastic.moments(strain.θ).T)
         return float(weight @ (own + strain.ε**2 / self._elements.compliance))

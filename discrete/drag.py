@@ -70,4 +70,6 @@ class Drag:
 
     def _wind(self, x: Array, v: Array, t: float) -> Array:
         """Velocity of the air against the rod, shape (n_nodes, 3) [m/s]."""
-        return self._air.velocity(x * self._unit + self._origin, t) - self._unit * v
+        wind = v * -self._unit
+        wind += self._air.velocity(x * self._unit + self._origin, t) if callable(self._air.field) else self._air.field
+        return wind

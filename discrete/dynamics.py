@@ -9,6 +9,7 @@ from discrete.damping import Damping
 from discrete.drag import Drag
 from discrete.euler import BackwardEuler
 from discrete.failure import advice
+from discrete.kept import motion_of, resume_motion
 from discrete.laws import Damped, Elastic
 from discrete.ledger import WORKS, Ledger
 from discrete.loads import Loads
@@ -26,12 +27,19 @@ from dolfinrod.scene import Dynamic, ImplicitEuler, SceneError, in_time
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from discrete.equilibrium import Element
+    from discrete.euler import Taken
     from discrete.mesh import Mesh
     from discrete.moving import Moving
     from discrete.statics import Progress
+    from dolfinrod.checkpoint import Checkpoint
     from dolfinrod.result import Result
     from dolfinrod.scene import Scene
+
+    Array = NDArray[np.float64]
 
 __all__ = ["moved"]
 
@@ -46,6 +54,7 @@ def moved(
     *,
     progress: Progress | None = None,
     start: Result | None = None,
+    file: Checkpoint | None = None,
 ) -> Result:
     """Motion of a scene.
 
@@ -56,6 +65,7 @@ def moved(
         chosen: Options of `discrete.solve` by name.
         progress: Called with each step and the final time.
         start: An earlier result to go on from.
+        file: What the motion is kept in.
 
     Returns:
         The states at the output times.
@@ -65,16 +75,17 @@ def moved(
         NotConverged: A step could not be taken, or the user interrupted; carries what was reached.
     """
     _check(scene, chosen)
-    begun = time.perf_counter()
-    timed = in_time(scene)
+    begun, timed = time.perf_counter(), in_time(scene)
     method, laws = _method(timed, cut, law, chosen)
     state, works = _begin(timed, scene, method, start)
     force, strain = laws.begin(state)
-    ledger = Ledger(timed, method, state, strain, works)
-    trajectory = Trajectory(scene, method, laws, ledger, state, force, progress)
-    march = March(timed, state, lambda now, t: method.take(now, t, laws.over(t - now.t)), trajectory.accept)
-    notes = tuple(f'{name}="{value}"' for name, value in chosen.items() if value != PLAIN[name])
-    return _followed(scene, march, trajectory, (cut, notes), begun)
+    trajectory = Trajectory(scene, method, laws, Ledger(timed, method, state, strain, works), state, force)
+
+    def take(now: Moving, t: float) -> Taken:
+        return method.take(now, t, laws.over(t - now.t))
+
+    march = March(timed, state, trajectory.entry, take, trajectory.accept)
+    return _followed(scene, march, trajectory, (cut, chosen), begun, progress, file)
 
 
 def _method(scene: Scene, cut: Mesh, law: Element, chosen: Mapping[str, str]) -> tuple[BackwardEuler, Elastic | Damped]:
@@ -90,30 +101,62 @@ def _method(scene: Scene, cut: Mesh, law: Element, chosen: Mapping[str, str]) ->
 
 
 def _followed(
-    scene: Scene, march: March, trajectory: Trajectory, shape: tuple[Mesh, tuple[str, ...]], begun: float
+    scene: Scene,
+    march: March,
+    trajectory: Trajectory,
+    shape: tuple[Mesh, Mapping[str, str]],
+    begun: float,
+    progress: Progress | None,
+    file: Checkpoint | None,
 ) -> Result:
     """March and record what came out.
 
     Raises:
+        SceneError: The file is of something else.
         NotConverged: The end was not reached.
     """
+    kept = None if file is None else file.read()
+    if kept is not None:
+        resume_motion(march, trajectory, kept)
+    started = time.perf_counter()
+    failure = _marched(scene, march, trajectory, progress, file)
+    trajectory.finish()
+    cut, chosen = shape
+    notes = tuple(f'{name}="{value}"' for name, value in chosen.items() if value != PLAIN[name])
+    seconds = (started - begun, time.perf_counter() - started)
+    found, state = formulation(scene, cut, notes), stored_motion(march.mark.state, march.mark.step, cut)
+    result = trajectory.result(found, state, seconds, converged=failure is None)
+    if failure is None:
+        return result
+    words = _advice(scene, failure, file)
+    raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=words) from failure
+
+
+def _marched(
+    scene: Scene, march: March, trajectory: Trajectory, progress: Progress | None, file: Checkpoint | None
+) -> StepFailed | None:
+    """March to the end; what stopped it, or None."""
     started, failure = time.perf_counter(), None
+
+    def arrays() -> dict[str, Array]:
+        return motion_of(march, trajectory, time.perf_counter() - started)
+
+    def stepped() -> None:
+        if file is not None:
+            file.now_and_then(march.mark.state.t, arrays)
+        if progress is not None:
+            progress(trajectory.log[-1], scene.motion.t_end)
+
     try:
-        march.follow()
+        march.follow(stepped)
     except StepFailed as caught:
         failure = caught
     except KeyboardInterrupt:
-        failure = StepFailed(t=march.state.t, step=march.step, reason=INTERRUPTED)
-    trajectory.finish()
-    cut, notes = shape
-    seconds = (started - begun, time.perf_counter() - started)
-    found = formulation(scene, cut, notes)
-    result = trajectory.result(found, stored_motion(march.state, march.step, cut), seconds, converged=failure is None)
-    if failure is None:
-        return result
-    raise NotConverged(
-        result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=_advice(scene, failure)
-    ) from failure
+        failure = StepFailed(t=march.mark.state.t, step=march.mark.step, reason=INTERRUPTED)
+    trajectory.rewind(march.mark.entry, march.mark.state)
+    if file is not None:
+        file.write(march.mark.state.t, arrays)
+    return failure
 
 
 def _begin(timed: Scene, scene: Scene, method: BackwardEuler, start: Result | None) -> tuple[Moving, dict[str, float]]:
@@ -148,10 +191,10 @@ def _check(scene: Scene, chosen: Mapping[str, str]) -> None:
                 raise SceneError(damped, field=f"rods[{k}].section.damping")
 
 
-def _advice(scene: Scene, failure: StepFailed) -> str:
+def _advice(scene: Scene, failure: StepFailed, file: Checkpoint | None) -> str:
     """What to try against a failure."""
     if failure.reason == INTERRUPTED:
-        return advice(scene, failure, ())
+        return advice(scene, failure, (), file)
     motion = scene.motion
     assert isinstance(motion, Dynamic)
     if motion.dt is not None:

@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.approach import approach
-from discrete.assembly import SingularTangentError, scatter
+from discrete.assembly import SingularTangentError
+from discrete.ends import Ends
 from discrete.factors import Workshop
 from discrete.rotation import tangents
 from discrete.step import Step, StepLostError
+from discrete.taken import Taken
 from discrete.unknowns import SPIN, X
 
 if TYPE_CHECKING:
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 
     from discrete.drag import Drag
     from discrete.equilibrium import Element
-    from discrete.factors import Factors
+    from discrete.factors import Factors, Increments
     from discrete.loads import LoadLevel, Loads
     from discrete.mesh import Mesh
     from discrete.momentum import Inertia
@@ -36,6 +38,8 @@ __all__ = ["BackwardEuler", "Taken"]
 
 # What the last increment leaves of the largest motion in a step.
 TOLERANCE = 1e-9
+# The same in L and radians: what steps leave adds up, in 1e4 of them to 1e-8.
+FINEST = 1e-12
 # Increments, in L and radians, below which only round-off keeps them from shrinking.
 ROUND_OFF = 1e-11
 MOST_ITERATIONS = 30
@@ -44,45 +48,29 @@ RUNAWAY = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Taken:
-    """A step and all that acted in it, in units of the model.
+class _Balance:
+    """Forces in a configuration, names as in `Taken`.
 
     Args:
-        state: At its end.
-        iterations: Linear systems solved.
-        residual: Largest force or moment out of balance before the last increment.
-        force: End forces of the elements, shape (n, 13).
-        internal: The same at the nodes, shape (n_nodes, 7).
-        energy: Strain energy by the law of the step.
-        level: Loads at its end.
-        acting: The same at the nodes, shape (n_nodes, 7).
-        drag: Forces of the air, shape (n_nodes, 3).
-        missing: Loads, drag and inertia minus internal forces: what supports answer with a minus, shape (n_nodes, 7).
+        x: Positions, shape (3, n_nodes).
+        R: Section frames, shape (3, 3, n_nodes).
+        e: Chords, shape (n, 3).
+        E: Triads attached to their ends, shape (n, 2, 3, 3).
+        force: Shape (n, 13).
+        energy: Of each element, shape (n,).
+        internal: Shape (7, n_nodes).
+        drag: Shape (n_nodes, 3).
+        moment: That of inertia, shape (n_nodes, 3).
+        missing: Shape (7, n_nodes).
     """
-
-    state: Moving
-    iterations: int
-    residual: float
-    force: Array
-    internal: Array
-    energy: float
-    level: LoadLevel
-    acting: Array
-    drag: Array
-    missing: Array
-
-
-@dataclass(frozen=True, eq=False)
-class _Balance:
-    """Forces in a configuration; names and shapes as in `Taken`, `moment` is that of inertia."""
 
     x: Array
     R: Array
     e: Array
     E: Array
     force: Array
+    energy: Array
     internal: Array
-    energy: float
     drag: Array
     moment: Array
     missing: Array
@@ -106,7 +94,8 @@ class BackwardEuler:
     ) -> None:
         self.mesh, self.loads, self.supports, self.inertia = mesh, loads, supports, inertia
         self._drag, self._added = drag, added
-        self._workshop = Workshop(mesh, supports)
+        self._ends = Ends(mesh.elements, len(mesh.x))
+        self._workshop = Workshop(mesh, supports, inertia.m if drag is None else None)
         self._still = np.zeros_like(mesh.x)
 
     @property
@@ -156,88 +145,92 @@ class BackwardEuler:
 
     def _iterated(self, step: Step, law: Element, level: LoadLevel, spent: int) -> Taken:
         """Newton's method with factors that may be old, after some iterations of another kind."""
-        workshop, before = self._workshop, np.inf
+        workshop, before, left = self._workshop, np.inf, 0.0
         for iteration in range(1, MOST_ITERATIONS + 1):
             balance = self._balance(step, law, level)
-            factors, fresh = workshop.factors, workshop.factors is None
-            if factors is None:
-                _, stiffness = law.respond(balance.e, balance.E, step.F_n)
-                at = balance.x, balance.R, balance.moment, balance.missing
-                factors = self._factors(step, stiffness, level, at)
-            d, free = workshop.increments(factors, balance.missing, balance.R)
-            size = max(float(np.abs(d[:, X]).max()), float(np.abs(d[:, SPIN]).max()))
-            if size >= RUNAWAY:
+            fresh = workshop.factors is None
+            factors = workshop.factors or self._factors_at(step, law, level, balance)
+            found = workshop.increments(factors, balance.missing, balance.R)
+            if found.size >= RUNAWAY:
                 raise StepLostError("the iteration diverged")
-            step.move(d)
-            goal = TOLERANCE * step.motion()
-            done = np.isfinite(before) and workshop.enough(size, before, goal)
-            if done or size == 0.0 or (size < ROUND_OFF and size > 0.25 * before):
-                workshop.wear(iteration)
-                return self._taken(step, factors, d, balance, level, (spent + iteration, free))
-            if not fresh and np.isfinite(before) and workshop.slow(size, before, goal):
+            step.move(found.d)
+            goal = min(TOLERANCE * step.motion(), FINEST)
+            done = iteration > 1 and workshop.wear.enough(found.size, before, goal)
+            if iteration > 2 and not fresh:
+                left = max(left, found.size / before)
+            if done or found.size == 0.0 or (found.size < ROUND_OFF and found.size > 0.25 * before):
+                if workshop.wear.see(iteration, left):
+                    workshop.factors = None
+                return self._taken(step, found, balance, level, spent + iteration)
+            if not fresh and iteration > 1 and workshop.wear.slow(found.size, before, goal):
                 workshop.factors = None
-            before = size
+            before = found.size
         raise StepLostError(f"no convergence in {MOST_ITERATIONS} iterations")
 
     def _balance(self, step: Step, law: Element, level: LoadLevel) -> _Balance:
         """All forces as far as the iteration has come."""
         x, R = step.configuration()
-        node_i = self.mesh.elements.node_i
-        e, E = x[node_i + 1] - x[node_i], self.mesh.elements.triads(R)
+        e, E = self._ends.chords(x).T, self._ends.triads(R).transpose(3, 2, 0, 1)
         force, energy = law.measure(e, E, step.F_n)
-        internal = scatter(force, node_i, len(x))
+        internal = self._ends.scatter(force.T)
         missing, drag, moment = self._outer(step, x, R, level)
         missing -= internal
-        return _Balance(x, R, e, E, force, internal, float(energy.sum()), drag, moment, missing)
+        return _Balance(x, R, e, E, force, energy, internal, drag, moment, missing)
 
     def _outer(self, step: Step, x: Array, R: Array, level: LoadLevel) -> tuple[Array, Array, Array]:
-        """Loads, drag and inertia together, the drag alone and the moment that inertia takes."""
-        outer, drag = level.at(R), self._still
+        """Loads, drag and inertia together by rows, the drag alone and the moment that inertia takes."""
+        frames = R.transpose(2, 0, 1)
+        outer, drag = level.at(frames).T.copy(), self._still
         if self._drag is not None:
-            drag = self._drag.force(x, R, step.v, step.t)
-            outer[:, X] += drag
-        moment = self.inertia.moment(R, step.Ω, step.ΔΩ, step.dt)
-        outer[:, X] -= self.inertia.force(step.Δv, step.dt)
-        outer[:, SPIN] -= moment
+            drag = self._drag.force(x.T, frames, step.v.T, step.t)
+            outer[X] += drag.T
+        moment = self.inertia.moment(frames, step.Ω.T, step.ΔΩ.T, step.dt)
+        outer[X] -= self.inertia.force(step.Δv.T, step.dt).T
+        outer[SPIN] -= moment.T
         return outer, drag, moment
 
-    def _increments(self, level: LoadLevel, step: Step, force: Array, tangent: Array, R: Array) -> Array:
-        """Increments by new factors for given end forces and their derivative."""
-        x, _ = step.configuration()
+    def _increments(self, level: LoadLevel, step: Step, force: Array, tangent: Array) -> Array:
+        """Increments by new factors for given end forces and their derivative, shape (7, n_nodes)."""
+        x, R = step.configuration()
         missing, _, moment = self._outer(step, x, R, level)
-        missing -= scatter(force, self.mesh.elements.node_i, len(x))
+        missing -= self._ends.scatter(force.T)
         factors = self._factors(step, tangent, level, (x, R, moment, missing))
-        return self._workshop.increments(factors, missing, R)[0]
+        return self._workshop.increments(factors, missing, R).d
+
+    def _factors_at(self, step: Step, law: Element, level: LoadLevel, at: _Balance) -> Factors:
+        """New factors where the iteration has come to."""
+        # Many small matrices are made of these: one after the other in memory that is quicker.
+        _, stiffness = law.respond(np.ascontiguousarray(at.e), np.ascontiguousarray(at.E), step.F_n)
+        return self._factors(step, stiffness, level, (at.x, at.R, at.moment, at.missing))
 
     def _factors(
         self, step: Step, stiffness: Array, level: LoadLevel, at: tuple[Array, Array, Array, Array]
     ) -> Factors:
         """New factors of the tangent at a configuration, moment of inertia and what is out of balance there."""
         x, R, moment, missing = at
-        Θ, _ = tangents(step.θ, self._still)
-        blocks, drag = self.inertia.blocks(R, step.ω, step.Ω, moment, Θ, step.dt), None
+        frames = R.transpose(2, 0, 1)
+        Θ, _ = tangents(step.θ.T, self._still)
+        blocks, drag = self.inertia.blocks(frames, step.ω.T, step.Ω.T, moment, Θ, step.dt), None
         if self._drag is not None:
-            drag = self._drag.blocks(x, R, step.v, step.t, step.dt)
+            drag = self._drag.blocks(x.T, frames, step.v.T, step.t, step.dt)
             blocks += drag
         return self._workshop.make(stiffness, blocks, drag, step.dt, missing, level, R)
 
-    def _taken(
-        self, step: Step, factors: Factors, d: Array, at: _Balance, level: LoadLevel, row: tuple[int, float]
-    ) -> Taken:
+    def _taken(self, step: Step, found: Increments, at: _Balance, level: LoadLevel, iterations: int) -> Taken:
         """The step, what acted before its last increment carried on along it."""
-        change = factors.stretched(d)
-        added = scatter(change, self.mesh.elements.node_i, len(d))
-        energy = at.energy + float(np.vdot(at.internal + 0.5 * added, d))
+        change = found.stretched(self._ends)
+        added = self._ends.scatter(change)
+        energy = float(at.energy.sum()) + float(np.vdot(at.internal + 0.5 * added, found.d))
         state = step.end()
         return Taken(
             state=state,
-            iterations=row[0],
-            residual=row[1],
-            force=at.force + change,
-            internal=at.internal + added,
+            iterations=iterations,
+            residual=found.free,
+            force=at.force + change.T,
+            internal=(at.internal + added).T,
             energy=energy,
             level=level,
             acting=level.at(state.R),
-            drag=at.drag + factors.slowed(d),
-            missing=at.missing - added,
+            drag=at.drag + found.slowed(),
+            missing=(at.missing - added).T,
         )

@@ -1,26 +1,30 @@
 """Factors of the tangent of a step, kept for as many steps as they serve.
 
-The tangent is that of statics with a block of inertia, drag and follower loads at each node. Increments by old factors
-shrink by about the same part from one iteration and from one step to the next; that decides when new ones would pay and
-when a further iteration would change nothing.
+The tangent is that of statics with a block of inertia, drag and follower loads at each node. As the sections turn it
+turns with them: forces and increments of each node are turned back to where its section was when the factors were made,
+so that they wear by deformation only.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import log
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.assembly import SingularTangentError, gather
+from discrete.assembly import SingularTangentError
+from discrete.loose import loose
 from discrete.nodes import NodalSystem
-from discrete.unknowns import AXIAL, N_NODE, SPIN, SPIN_J, X_J
+from discrete.rows import of_vectors, turn, turn_back
+from discrete.unknowns import AXIAL, N_NODE, SPIN, SPIN_J, X_J, X
+from discrete.wear import Wear
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from discrete.assembly import Inverse
+    from discrete.ends import Ends
     from discrete.loads import LoadLevel
     from discrete.mesh import Mesh
     from discrete.nodes import Tangent
@@ -28,18 +32,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Factors", "Workshop"]
+__all__ = ["Factors", "Increments", "Workshop"]
 
-# Iterations that new factors cost as much as.
-WORTH = 5.0
 # Change of the length of the step that is but round-off: with others' m/Δt² not even momentum would be kept.
 OTHER_STEP = 1e-6
-# Part of an increment that the next one will hardly be below, however much smaller it was than the one before.
-STEADY = 0.1
-# Steps in a row that begin with new factors after one in which they did not last.
-EAGER = 8
-# Iterations that no step takes.
-MANY = 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,49 +44,80 @@ class Factors:
 
     Args:
         dt: Length of the step it was made for.
-        stiffness: Of the elements alone, shape (n, 13, 13).
-        drag: Blocks of the air, shape (n_nodes, 6, 6); None where there is none.
+        R: Section frames where it was made, shape (3, 3, n_nodes).
+        stiffness: Of the elements alone, shape (13, 13, n).
+        drag: Resistance of the air, shape (3, 6, n_nodes); None where there is none.
         tangent: Everything.
         inverse: Its factors.
     """
 
     dt: float
+    R: Array
     stiffness: Array
     drag: Array | None
     tangent: Tangent
     inverse: Inverse
 
-    def stretched(self, d: Array) -> Array:
-        """Change of the end forces by increments, shape (n, 13)."""
-        return np.matmul(self.stiffness, gather(d, self.tangent.system.node_i)[:, :, None])[:, :, 0]
 
-    def slowed(self, d: Array) -> Array | float:
-        """Change of the drag by increments, shape (n_nodes, 3)."""
-        return 0.0 if self.drag is None else -np.einsum("nij,nj->ni", self.drag[:, :3], d[:, :AXIAL])
+@dataclass(frozen=True, eq=False)
+class Increments:
+    """A solution with factors, by rows.
+
+    Args:
+        d: Increments, shape (7, n_nodes).
+        own: The same turned back to where the sections were when the factors were made.
+        Q: What they have turned by, shape (3, 3, n_nodes).
+        size: Largest displacement or spin.
+        free: Largest force or moment out of balance where free.
+        factors: By which it was found.
+    """
+
+    d: Array
+    own: Array
+    Q: Array
+    size: float
+    free: float
+    factors: Factors
+
+    def stretched(self, ends: Ends) -> Array:
+        """Change of the end forces, shape (13, n)."""
+        return ends.turned(self.Q, np.einsum("abn,bn->an", self.factors.stiffness, ends.gather(self.own)))
+
+    def slowed(self) -> Array | float:
+        """Change of the drag, shape (n_nodes, 3)."""
+        if self.factors.drag is None:
+            return 0.0
+        change = -np.einsum("abn,bn->an", self.factors.drag, self.own[:AXIAL])
+        return turn(self.Q, change[None])[0].T
 
 
 class Workshop:
-    """Makes factors and says how long they serve.
+    """Makes factors and solves with them.
 
     Args:
         mesh: Nodes and elements.
         supports: What holds.
+        m: Masses of the nodes where nothing but they resists the translation of a loose rod, shape (n_nodes,); None:
+            something does.
 
     Attributes:
         factors: Those at hand; None: new ones are due.
         made: How many there have been.
         solved: Linear systems solved with them, those of lost steps included.
+        wear: How long they serve.
     """
 
-    def __init__(self, mesh: Mesh, supports: Supports) -> None:
+    def __init__(self, mesh: Mesh, supports: Supports, m: Array | None) -> None:
         self._system, self._supports = NodalSystem(mesh, supports.held), supports
         self.factors: Factors | None = None
         self.made = self.solved = 0
-        self._eager, self._least, self._excess = 0, MANY, 0
+        self.wear = Wear()
         self._node_i = mesh.elements.node_i
         self._last = np.setdiff1d(np.arange(len(mesh.x)), self._node_i)
         self._ends = np.searchsorted(self._node_i, self._last - 1)
-        self._held = supports.held
+        self._held, self._askew = supports.held, supports.askew
+        self._whole = None if m is None else loose(mesh, supports, m)
+        self._right = np.empty((len(mesh.x), N_NODE))
 
     def check(self, dt: float) -> None:
         """Give the factors up where they are of another length of the step."""
@@ -105,11 +132,11 @@ class Workshop:
         Args:
             stiffness: Of the elements, shape (n, 13, 13).
             blocks: Of all that acts at single nodes but follower loads and guides, shape (n_nodes, 6, 6).
-            drag: The part of the air in it.
+            drag: The part of the air in it; None where there is none.
             dt: Length of the step.
-            missing: What is out of balance, for the answer of guides, shape (n_nodes, 7).
+            missing: What is out of balance, for the answer of guides, shape (7, n_nodes).
             level: Loads.
-            R: Section frames, shape (n_nodes, 3, 3).
+            R: Section frames, shape (3, 3, n_nodes).
 
         Returns:
             Also kept as those at hand.
@@ -121,60 +148,56 @@ class Workshop:
         at_j = slice(X_J.start, SPIN_J.stop)
         tangent[:, :AXIAL, :AXIAL] += blocks[self._node_i]
         tangent[self._ends, at_j, at_j] += blocks[self._last]
-        scratch = missing.copy(), np.zeros_like(missing)
-        whole = self._system.tangent(tangent, *scratch, level, self._supports.guides, R)
-        self.factors, self.made = Factors(dt, stiffness, drag, whole, whole.inverse()), self.made + 1
-        self._least, self._excess = MANY, 0
+        scratch = missing.T.copy(), np.zeros_like(self._right)
+        whole = self._system.tangent(tangent, *scratch, level, self._supports.guides, R.transpose(2, 0, 1))
+        of_elements = np.ascontiguousarray(stiffness.transpose(1, 2, 0))
+        of_air = None if drag is None else np.ascontiguousarray(drag[:, X].transpose(1, 2, 0))
+        self.factors, self.made = Factors(dt, R, of_elements, of_air, whole, whole.inverse()), self.made + 1
+        self.wear.renew()
         return self.factors
 
-    def increments(self, factors: Factors, missing: Array, R: Array) -> tuple[Array, float]:
-        """Increments of all nodes, shape (n_nodes, 7), and the largest force or moment out of balance where free.
+    def increments(self, factors: Factors, missing: Array, R: Array) -> Increments:
+        """Increments of all nodes for what is out of balance, shape (7, n_nodes), at section frames R.
 
         Raises:
             SingularTangentError: They are not finite.
         """
-        guides = self._supports.guides
-        right = missing.copy() if not len(guides.nodes) else self._guided(factors, missing, R)
+        guided = len(self._supports.guides.nodes) > 0
+        Q = np.einsum("ijn,kjn->ikn", R, factors.R)
+        if len(self._askew):
+            Q[:, :, self._askew] = np.eye(3)[:, :, None]
+        n, right = len(self._right), self._right
+        right[:, :AXIAL] = turn_back(Q, missing[:AXIAL].reshape(2, 3, n)).reshape(AXIAL, n).T
+        right[:, AXIAL] = missing[AXIAL]
+        if guided:
+            self._guide(factors, right, R.transpose(2, 0, 1))
         flat = right.reshape(-1)
         flat[self._held] = 0.0
         free = float(np.abs(right[:, :AXIAL]).max())
-        if len(guides.nodes):
-            θ_a, c, _ = guides.linearized(R)
-            right[guides.nodes, SPIN.start] = -θ_a / np.einsum("mi,mi->m", c, factors.tangent.axes[:, :, 0])
-        d = factors.inverse.times(flat[:, None]).reshape(-1, N_NODE)
+        if guided:
+            self._turn_guided(factors, right, R.transpose(2, 0, 1))
+        solution = factors.inverse.times(flat[:, None]).reshape(right.shape)
+        own = of_vectors(factors.tangent.in_space(solution) if guided else solution)
         self.solved += 1
-        if not np.isfinite(d).all():
+        d = own.copy()
+        d[:AXIAL] = turn(Q, own[:AXIAL].reshape(2, 3, n)).reshape(AXIAL, n)
+        if self._whole is not None:
+            self._whole.move(d, missing, factors.dt)
+        size = float(np.abs(d[:AXIAL]).max())
+        if not isfinite(size):
             raise SingularTangentError
-        return (factors.tangent.in_space(d) if len(guides.nodes) else d), free
+        return Increments(d, own, Q, size, free, factors)
 
-    def enough(self, size: float, before: float, goal: float) -> bool:
-        """Whether what an increment leaves is below a goal."""
-        return size * min(1.0, max(size / before, STEADY)) <= goal
-
-    def slow(self, size: float, before: float, goal: float) -> bool:
-        """Whether increments shrink so slowly that new factors would pay in this step."""
-        if size >= before or log(goal / size) < WORTH * log(size / before):
-            self._eager = EAGER
-            return True
-        return False
-
-    def wear(self, iterations: int) -> None:
-        """Give the factors up once steps have cost as much more than their shortest one as new factors would.
-
-        Where they did not last for one step, the next few begin with new ones.
-        """
-        self._eager -= 1
-        if self._eager > 0:
-            self.factors = None
-        self._least = min(self._least, max(2, iterations))
-        self._excess += max(0, iterations - self._least)
-        if self._excess > WORTH:
-            self.factors = None
-
-    def _guided(self, factors: Factors, missing: Array, R: Array) -> Array:
-        """What is out of balance without the answers λ c of guides, spins in the axes of the tangent."""
-        guides, right = self._supports.guides, missing.copy()
+    def _guide(self, factors: Factors, right: Array, R: Array) -> None:
+        """Take the answers λ c of guides off what is out of balance, and turn spins into the axes of the tangent."""
+        guides = self._supports.guides
         _, c, _ = guides.linearized(R)
         λ = np.einsum("mi,mi->m", c, right[guides.nodes, SPIN]) / np.einsum("mi,mi->m", c, c)
         right[guides.nodes, SPIN] -= λ[:, None] * c
-        return factors.tangent.in_axes(right)
+        right[:] = factors.tangent.in_axes(right)
+
+    def _turn_guided(self, factors: Factors, right: Array, R: Array) -> None:
+        """Let guided sections turn by what they are off."""
+        guides = self._supports.guides
+        θ_a, c, _ = guides.linearized(R)
+        right[guides.nodes, SPIN.start] = -θ_a / np.einsum("mi,mi->m", c, factors.tangent.axes[:, :, 0])

@@ -14,25 +14,28 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from discrete.statics import StepFailed
+    from dolfinrod.checkpoint import Checkpoint
     from dolfinrod.result import StepLog
     from dolfinrod.scene import Scene
 
 __all__ = ["advice"]
 
 
-def advice(scene: Scene, failure: StepFailed, log: Sequence[StepLog]) -> str:
+def advice(scene: Scene, failure: StepFailed, log: Sequence[StepLog], file: Checkpoint | None = None) -> str:
     """The likely cause of a failure and what to try against it.
 
     Args:
         scene: The scene that was not solved.
         failure: How it ended.
         log: Steps that were taken before.
+        file: What they are kept in.
 
     Returns:
         Sentences without the last full stop.
     """
     if failure.reason == INTERRUPTED:
-        return "`.result` holds what was reached; discrete.solve(scene, start=...) goes on from there"
+        way = "discrete.solve(scene, start=...)" if file is None else f"the same run with {file.name}"
+        return f"`.result` holds what was reached; {way} goes on from there"
     found = Findings(
         t=failure.t,
         pushed=failure.reason == UNBALANCED,

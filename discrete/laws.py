@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from discrete.ends import Ends
+from discrete.rows import of_frames, of_vectors
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -28,11 +31,11 @@ class Elastic:
     """
 
     def __init__(self, mesh: Mesh, law: Element) -> None:
-        self._mesh, self._law = mesh, law
+        self._ends, self._law = Ends(mesh.elements, len(mesh.x)), law
 
     def begin(self, state: Moving) -> tuple[Array, float]:
         """End forces and strain energy of the state that a motion begins with."""
-        force, energy = self._law.measure(*_joined(self._mesh, state), state.F_n)
+        force, energy = self._law.measure(*_joined(self._ends, state), state.F_n)
         return force, float(energy.sum())
 
     def over(self, dt: float) -> Element:
@@ -57,12 +60,12 @@ class Damped:
     """
 
     def __init__(self, mesh: Mesh, damping: Damping) -> None:
-        self._mesh, self._damping = mesh, damping
+        self._ends, self._damping = Ends(mesh.elements, len(mesh.x)), damping
         self._strain: Strain
 
     def begin(self, state: Moving) -> tuple[Array, float]:
         """End forces and strain energy of the state that a motion begins with, as if it had been at rest."""
-        e, E = _joined(self._mesh, state)
+        e, E = _joined(self._ends, state)
         self._strain = self._damping.strain(e, E)
         return self._damping.elastic_force(e, E, self._strain), self._damping.energy(self._strain)
 
@@ -72,15 +75,14 @@ class Damped:
 
     def accept(self, taken: Taken, dt: float) -> tuple[float, float]:
         """Strain energy at the end of a step, and what it has dissipated."""
-        before, self._strain = self._strain, self._damping.strain(*_joined(self._mesh, taken.state))
+        before, self._strain = self._strain, self._damping.strain(*_joined(self._ends, taken.state))
         return self._damping.energy(self._strain), self._damping.lost(before, self._strain, dt)
 
     def elastic_force(self, state: Moving) -> Array | None:
         """End forces without those of damping, at the last state."""
-        return self._damping.elastic_force(*_joined(self._mesh, state), self._strain)
+        return self._damping.elastic_force(*_joined(self._ends, state), self._strain)
 
 
-def _joined(mesh: Mesh, state: Moving) -> tuple[Array, Array]:
+def _joined(ends: Ends, state: Moving) -> tuple[Array, Array]:
     """Chords and the triads attached to their ends."""
-    node_i = mesh.elements.node_i
-    return state.x[node_i + 1] - state.x[node_i], mesh.elements.triads(state.R)
+    return ends.chords(of_vectors(state.x)).T, ends.triads(of_frames(state.R)).transpose(3, 2, 0, 1)

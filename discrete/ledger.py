@@ -50,11 +50,10 @@ class Ledger:
     ) -> None:
         self._scene, self._method = scene, method
         self._node_i, self._inertia = method.mesh.elements.node_i, method.inertia
-        self._origin = method.mesh.origin / method.mesh.units.length
-        self._weights = [(load, self._weight(load)) for load in scene.loads if isinstance(load, Gravity)]
-        firm = np.zeros((len(start.x), AXIAL + 1))
-        firm[:, :AXIAL] = method.supports.firm
-        self._firm, self._guided = firm, method.supports.guides.nodes
+        origin = method.mesh.origin / method.mesh.units.length
+        weights = [(load, self._weight(load)) for load in scene.loads if isinstance(load, Gravity)]
+        self._weights = [(load, weight, float(weight.sum(axis=1) @ origin)) for load, weight in weights]
+        self._firm, self._guided = method.supports.firm_rows, method.supports.guides.nodes
         self.now = dict.fromkeys((*STORED, *WORKS), 0.0) | dict(works)
         self._keep(start, in_body(start.R, start.ω), strain)
 
@@ -69,19 +68,20 @@ class Ledger:
         """
         new, now = step.state, self.now
         dt = new.t - before.t
-        moved = np.zeros_like(step.acting)
-        moved[:, X], moved[:, SPIN] = dt * new.v, dt * new.ω
+        moved = dt * np.concatenate((new.v.T, new.ω.T))
         Ω_0, Ω = in_body(before.R, before.ω), in_body(new.R, new.ω)
-        internal = float(np.vdot(step.internal, moved))
-        lost = internal - (strain - now["strain"]) - damped + self._inertia.kinetic(new.v - before.v, Ω - Ω_0)
-        answer = -step.missing
+        internal, answer = step.internal.T[:AXIAL], -step.missing.T[:AXIAL]
+        lost = float(np.vdot(internal, moved)) - (strain - now["strain"]) - damped
+        lost += self._inertia.kinetic(new.v - before.v, Ω - Ω_0)
         # A guide at rest does no work but that of its turning off the axis it held.
-        guides = float(np.vdot(answer[self._guided, SPIN], moved[self._guided, SPIN]))
+        guides = 0.0
+        if len(self._guided):
+            guides = float(np.vdot(answer[SPIN, self._guided], moved[SPIN, self._guided]))
         potential = now["potential"]
         self._keep(new, Ω, strain)
-        now["load work"] += float(np.vdot(step.acting, moved)) + now["potential"] - potential
-        now["support work"] += float(np.vdot(answer * self._firm, moved))
-        now["drag"] += float(np.vdot(step.drag, moved[:, X]))
+        now["load work"] += float(np.vdot(step.acting.T[:AXIAL], moved)) + now["potential"] - potential
+        now["support work"] += float(np.vdot(answer.reshape(-1)[self._firm], moved.reshape(-1)[self._firm]))
+        now["drag"] += float(np.vdot(step.drag.T, moved[X]))
         now["damping"] -= damped
         now["numerical"] += guides - lost
 
@@ -91,16 +91,16 @@ class Ledger:
         self.now["strain"] = strain
         t_end = self._scene.motion.t_end
         self.now["potential"] = -sum(
-            (factor(load.history, state.t, t_end) * float(np.vdot(weight, state.x + self._origin)))
-            for load, weight in self._weights
+            factor(load.history, state.t, t_end) * (float(np.vdot(weight, state.x.T)) + at_origin)
+            for load, weight, at_origin in self._weights
         )
 
     def _weight(self, load: Gravity) -> Array:
-        """Weight of the nodes, shape (n_nodes, 3)."""
+        """Weight of the nodes, shape (3, n_nodes)."""
         elements, units = self._method.mesh.elements, self._method.mesh.units
         ρA = np.array([rod.section.rhoA for rod in self._scene.rods], dtype=float)[elements.rod]
         half = 0.5 * ρA * elements.l * units.length / units.force
         share = np.zeros(len(self._method.mesh.x))
         share[self._node_i] = half
         share[self._node_i + 1] += half
-        return share[:, None] * np.array(load.g)
+        return np.array(load.g)[:, None] * share

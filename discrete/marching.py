@@ -6,6 +6,7 @@ differ by ½ Δt (v₁ − v₀) in the positions, which is the leading part of 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import ceil, sqrt
 from typing import TYPE_CHECKING
 
@@ -20,9 +21,10 @@ if TYPE_CHECKING:
 
     from discrete.euler import Taken
     from discrete.moving import Moving
+    from discrete.trajectory import Entry
     from dolfinrod.scene import Scene
 
-__all__ = ["March", "landings"]
+__all__ = ["March", "Mark", "landings"]
 
 # Halvings of a step after which it is lost.
 MOST_CUTS = 16
@@ -37,54 +39,89 @@ SAFETY, GROWTH, SHRINKAGE = 0.9, 2.0, 0.1
 WORTH_IT = 1.2
 
 
+@dataclass(frozen=True, eq=False)
+class Mark:
+    """Where a march stands at the end of a step, whatever comes after it.
+
+    Args:
+        state: There.
+        step: Length of the next step [s].
+        entry: How far its trajectory had come.
+        goals: Times still to be reached on the way from one even step to the next, the last one first [s].
+    """
+
+    state: Moving
+    step: float
+    entry: Entry
+    goals: tuple[float, ...] = ()
+
+
 class March:
     """Way through time.
 
     Args:
         scene: The problem, its motion in time.
         state: Where it begins.
+        entry: What is kept at the start.
         take: Takes a step from a state to a time, or raises `StepLostError`.
-        accept: Called with the state before, the step, the attempts lost before it and whether to store its end.
+        accept: Called with the state before, the step, the attempts lost before it and whether to store its end; tells
+            what is kept then.
+
+    Attributes:
+        mark: The last state that counts.
     """
+
+    _after: Callable[[], None]
 
     def __init__(
         self,
         scene: Scene,
         state: Moving,
+        entry: Entry,
         take: Callable[[Moving, float], Taken],
-        accept: Callable[[Moving, Taken, int, bool], None],
+        accept: Callable[[Moving, Taken, int, bool], Entry],
     ) -> None:
         assert isinstance(scene.motion, Dynamic)
         self._motion, self._take, self._accept = scene.motion, take, accept
-        self.state = state
-        self.step = self._motion.dt or FIRST * self._motion.t_end
         self._kinks, self._stored = landings(scene)
-        self._targets = sorted(t for t in self._kinks | self._stored if t > state.t)
+        self.take_up(Mark(state, self._motion.dt or FIRST * self._motion.t_end, entry))
 
-    def follow(self) -> None:
+    def take_up(self, mark: Mark) -> None:
+        """Go on from there."""
+        self.mark, self.state, self.step, self._goals = mark, mark.state, mark.step, list(mark.goals)
+
+    def follow(self, after: Callable[[], None]) -> None:
         """March to the end.
+
+        Args:
+            after: Called at the end of every step.
 
         Raises:
             StepFailed: A step could not be taken however short.
         """
-        for target in self._targets:
+        self._after, before = after, 0.0
+        for target in sorted(self._kinks | self._stored):
             if self._motion.dt is None:
                 self._reach_freely(target, self._motion.tol or TOLERANCE)
             else:
-                self._reach(target, self._motion.dt)
-            if target in self._kinks:
+                self._reach(before, target, self._motion.dt)
+            if target in self._kinks and self.state.t == target:
                 self.state = self.state.without_trend()
+            before = target
 
-    def _reach(self, target: float, dt: float) -> None:
-        """Equal steps up to a time."""
-        start = self.state.t
+    def _reach(self, start: float, target: float, dt: float) -> None:
+        """Equal steps from one time to another, those that are still ahead."""
         n = max(1, ceil((target - start) / dt * (1.0 - NEAR)))
+        h = (target - start) / n
         for k in range(1, n + 1):
-            self._advance(target if k == n else start + k * (target - start) / n)
+            t = target if k == n else start + k * (target - start) / n
+            if t > self.state.t + NEAR * h:
+                self._advance(t)
 
     def _advance(self, t: float) -> None:
         """One step, or as many shorter ones as it takes."""
-        goals, cuts = [t], 0
+        goals, cuts = self._goals, 0
+        goals[:] = [t, *(goal for goal in goals if goal < t)]
         while goals:
             now, self.step = self.state, goals[-1] - self.state.t
             try:
@@ -127,7 +164,9 @@ class March:
     def _go_on(self, taken: Taken, cuts: int) -> None:
         """Accept a step."""
         before, self.state = self.state, taken.state
-        self._accept(before, taken, cuts, self._motion.output is None or taken.state.t in self._stored)
+        entry = self._accept(before, taken, cuts, self._motion.output is None or taken.state.t in self._stored)
+        self.mark = Mark(self.state, self.step, entry, tuple(self._goals))
+        self._after()
 
 
 def landings(scene: Scene) -> tuple[set[float], set[float]]:

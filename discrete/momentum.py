@@ -8,11 +8,13 @@ adds rotary energy; with the difference of the ω taken in global axes it may.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.rotation import cross, skew
+from discrete.rotation import skew
+from discrete.rows import cross, of_vectors, turn
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -55,8 +57,9 @@ class Inertia:
         Returns:
             In global axes, shape (n, 3).
         """
-        own = self.J_star / dt * ΔΩ + cross(Ω, self.J_star * Ω)
-        return np.einsum("nij,nj->ni", R, own)
+        own = cross(Ω.T, self._J * Ω.T)
+        own += (self._J / dt) * ΔΩ.T
+        return turn(R.transpose(1, 2, 0), own[None])[0].T
 
     def blocks(self, R: Array, ω: Array, Ω: Array, moment: Array, Θ: Array, dt: float) -> Array:
         """Derivative of force and moment with displacement and spin of the node at the end of the step.
@@ -84,4 +87,9 @@ class Inertia:
 
     def kinetic(self, v: Array, Ω: Array) -> float:
         """Energy ½ m v² + ½ Ω·J* Ω; of changes Δv and ΔΩ it is what a step loses."""
-        return 0.5 * float(np.vdot(self.m[:, None] * v, v) + np.vdot(self.J_star * Ω, Ω))
+        return 0.5 * float(np.vdot(self.m * v.T, v.T) + np.vdot(self._J * Ω.T, Ω.T))
+
+    @cached_property
+    def _J(self) -> Array:
+        """J* by rows."""
+        return of_vectors(self.J_star)

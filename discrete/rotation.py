@@ -16,13 +16,15 @@ _SMALL = 0.5
 # Below this square of the angle three terms are as good as all.
 _TINY = 1e-3
 _IDENTITY = np.eye(3)
+# With the first two components repeated behind the last, every component finds its next two behind it.
+_AROUND = np.array([0, 1, 2, 0, 1])
 # η = Σ |B_2k| φ^(2k−2)/(2k)! with the Bernoulli numbers B_2k; its slope over φ term by term.
 _ETA = (1 / 12, 1 / 720, 1 / 30240, 1 / 1209600, 1 / 47900160, 691 / 1307674368000, 1 / 74724249600)
 _SLOPE = (*(2 * k * c for k, c in enumerate(_ETA[1:], 1)), 0.0)
 
 
 def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Cross products a × b of rows; several times quicker than numpy.cross on short arrays.
+    """Cross products a × b of rows; many times quicker than numpy.cross on short arrays.
 
     Args:
         a: Vectors, shape (n, 3).
@@ -31,11 +33,10 @@ def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]
     Returns:
         Products, shape (n, 3).
     """
-    product = np.empty_like(a)
-    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
-        product[:, k] = a[:, i] * b[:, j]
-        product[:, k] -= a[:, j] * b[:, i]
-    return product
+    a, b = a.T.take(_AROUND, axis=0), b.T.take(_AROUND, axis=0)
+    product = a[1:4] * b[2:]
+    product -= a[2:] * b[1:4]
+    return product.T
 
 
 def skew(a: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,16 +7,15 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from discrete.corotation import ChordElement
 from discrete.dynamics import moved
-from discrete.endforces import QuickElement
 from discrete.equilibrium import Equilibrium
 from discrete.failure import advice
 from discrete.increments import Increments
+from discrete.kept import path_of, resume_path
 from discrete.loads import Loads
 from discrete.mesh import mesh
 from discrete.neutral import PhaseCondition
-from discrete.nodeframe import EnergyNodeElement, PaperElement
+from discrete.options import check, law, law_in_time
 from discrete.record import recorded
 from discrete.restart import restored
 from discrete.stability import Judge
@@ -24,17 +23,19 @@ from discrete.state import State
 from discrete.statics import INTERRUPTED, Path, StepFailed, stride
 from discrete.stepping import Walk
 from discrete.supports import Supports
+from dolfinrod.checkpoint import Checkpoint
 from dolfinrod.result import NotConverged, Result
-from dolfinrod.scene import Dynamic, SceneError
+from dolfinrod.scene import Dynamic
 from dolfinrod.scene.door import admit
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Sequence
 
-    from discrete.equilibrium import Element
     from discrete.increments import Carried
-    from discrete.mesh import Elements, Mesh
+    from discrete.mesh import Mesh
     from discrete.statics import Progress
+    from dolfinrod.result import StepLog
     from dolfinrod.scene import Scene
 
 __all__ = ["beginning", "solve"]
@@ -51,6 +52,7 @@ def solve(
     end_mass: str = "half",
     progress: Progress | None = None,
     start: Result | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
 ) -> Result:
     """Equilibrium or motion of thin rods by the paper's 12×12 elements.
 
@@ -66,6 +68,7 @@ def solve(
         progress: Called with each accepted step and the final time or pseudo-time.
         start: An earlier result on the same elements: its last state is the first guess, or the shape a motion begins
             with; of the same scene, stepping goes on from its last time. Not without equilibrium iterations.
+        checkpoint: File that the run is kept in and goes on from, see `dolfinrod.solve`. Not without these either.
 
     Returns:
         The states at the accepted load steps or output times.
@@ -75,11 +78,29 @@ def solve(
         NotConverged: A load step could not be taken; carries what had converged.
     """
     admit(scene, start, Result)
-    _check(axial, frame, equilibrium, start)
+    chosen = {"axial": axial, "frame": frame, "rotation": rotation, "end_mass": end_mass}
+    check(chosen, scene, equilibrium=equilibrium, start=start, checkpoint=checkpoint)
+    return _solved(scene, elements, chosen, equilibrium, progress, start, checkpoint)
+
+
+def _solved(
+    scene: Scene,
+    elements: int | Sequence[int],
+    chosen: dict[str, str],
+    equilibrium: bool,
+    progress: Progress | None,
+    start: Result | None,
+    checkpoint: str | os.PathLike[str] | None,
+) -> Result:
+    """Solve with options that are known."""
+    begun, cut, file = time.perf_counter(), mesh(scene, elements), None
+    if checkpoint is not None:
+        counts = tuple(len(s) - 1 for s in cut.s)
+        file = Checkpoint(checkpoint, scene, {"model": "discrete", "elements": counts, **chosen}, start)
     if isinstance(scene.motion, Dynamic):
-        return _moved(scene, elements, (axial, frame, rotation, end_mass), equilibrium, progress, start)
-    begun = time.perf_counter()
-    return _followed(scene, _prepare(scene, mesh(scene, elements), axial, frame, equilibrium, start), begun, progress)
+        return moved(scene, cut, law_in_time(cut.elements, chosen), chosen, progress=progress, start=start, file=file)
+    run = _prepare(scene, cut, chosen["axial"], chosen["frame"], equilibrium, start, file)
+    return _followed(scene, run, begun, progress, file)
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,11 +120,23 @@ class _Run:
     notes: Callable[[], tuple[str, ...]]
 
 
-def _prepare(scene: Scene, cut: Mesh, axial: str, frame: str, equilibrium: bool, start: Result | None) -> _Run:
-    """Set up equilibrium iterations or the paper's increments."""
+def _prepare(
+    scene: Scene,
+    cut: Mesh,
+    axial: str,
+    frame: str,
+    equilibrium: bool,
+    start: Result | None,
+    file: Checkpoint | None,
+) -> _Run:
+    """Set up equilibrium iterations, from where they are kept, or the paper's increments."""
     if equilibrium:
         phase, path = _set_up(scene, cut, axial, frame, start)
-        earlier = start.log[-1].stable if start is not None and start.log else True
+        kept = None if file is None else file.read()
+        if kept is not None:
+            resume_path(path, kept)
+        behind = path.log or (start.log if start is not None else ())
+        earlier = behind[-1].stable if behind else True
         walk = Walk(phase, Judge(scene, cut), scene, path, path.kept[-1].t, stable=earlier)
         return _Run(cut, path, walk.follow, lambda: phase.notes)
     increments = Increments(cut, Loads(scene, cut), Supports(scene, cut), node_frame=frame == "node_i")
@@ -133,82 +166,40 @@ def _set_up(
     scene: Scene, cut: Mesh, axial: str, frame: str, start: Result | None
 ) -> tuple[PhaseCondition, Path[State]]:
     """Solver with equilibrium iterations, and its first state."""
-    method = Equilibrium(cut, _law(cut.elements, axial, frame), Loads(scene, cut), Supports(scene, cut))
+    method = Equilibrium(cut, law(cut.elements, axial, frame), Loads(scene, cut), Supports(scene, cut))
     return PhaseCondition(method), _begin(method, scene, start)
 
 
-def _followed(scene: Scene, run: _Run, begun: float, progress: Progress | None) -> Result:
+def _followed(scene: Scene, run: _Run, begun: float, progress: Progress | None, file: Checkpoint | None) -> Result:
     """Follow the loads and record what came out of what was begun at a time of the clock.
 
     Raises:
         NotConverged: A load step could not be taken.
     """
-    started = time.perf_counter()
-    failure = None
+    started, failure, path = time.perf_counter(), None, run.path
+
+    def stepped(row: StepLog, t_end: float) -> None:
+        if file is not None:
+            file.now_and_then(row.t, lambda: path_of(path))
+        if progress is not None:
+            progress(row, t_end)
+
     try:
-        run.follow(progress)
+        run.follow(stepped)
     except StepFailed as caught:
         failure = caught
     except KeyboardInterrupt:
-        failure = StepFailed(t=run.path.kept[-1].t, step=0.0, reason=INTERRUPTED)
+        failure = StepFailed(t=path.kept[-1].t, step=0.0, reason=INTERRUPTED)
+    if file is not None:
+        file.write(path.kept[-1].t, lambda: path_of(path))
     seconds = (started - begun, time.perf_counter() - started)
-    result = recorded(scene, run.mesh, run.path, run.notes(), seconds, converged=failure is None)
+    result = recorded(scene, run.mesh, path, run.notes(), seconds, converged=failure is None)
     if failure is not None:
+        words = advice(scene, failure, path.log, file)
         raise NotConverged(
-            result=result,
-            t=failure.t,
-            step=failure.step,
-            reason=failure.reason,
-            advice=advice(scene, failure, run.path.log),
+            result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=words
         ) from failure
     return result
-
-
-def _check(axial: str, frame: str, equilibrium: bool, start: Result | None) -> None:
-    """Options that the model knows.
-
-    Raises:
-        SceneError: One that it does not know.
-    """
-    if axial not in ("chord", "paper"):
-        raise SceneError(f'axial must be "chord" or "paper", got {axial!r}')
-    if frame not in ("element", "node_i"):
-        raise SceneError(f'frame must be "element" or "node_i", got {frame!r}')
-    if start is not None and not equilibrium:
-        raise SceneError("start must be None where equilibrium is False: the end forces carried along are not kept")
-
-
-def _moved(
-    scene: Scene,
-    elements: int | Sequence[int],
-    options: tuple[str, str, str, str],
-    equilibrium: bool,
-    progress: Progress | None,
-    start: Result | None,
-) -> Result:
-    """Motion in time; `axial`, `frame`, `rotation`, `end_mass` and the rest as for `solve`.
-
-    Raises:
-        SceneError: An option that is not known there.
-    """
-    chosen = dict(zip(("axial", "frame", "rotation", "end_mass"), options, strict=True))
-    for name, known in (("rotation", ("exponential", "added")), ("end_mass", ("half", "paper"))):
-        if chosen[name] not in known:
-            raise SceneError(f'{name} must be "{known[0]}" or "{known[1]}", got {chosen[name]!r}')
-    if not equilibrium:
-        raise SceneError("equilibrium must be True in a Dynamic motion: its steps are fully implicit")
-    cut = mesh(scene, elements)
-    law = _law(cut.elements, chosen["axial"], chosen["frame"])
-    if chosen["frame"] == "element":
-        law = QuickElement(cut.elements, paper_strain=chosen["axial"] == "paper")
-    return moved(scene, cut, law, chosen, progress=progress, start=start)
-
-
-def _law(elements: Elements, axial: str, frame: str) -> Element:
-    """Law of the elements."""
-    if frame == "element":
-        return ChordElement(elements, paper_strain=axial == "paper")
-    return PaperElement(elements) if axial == "paper" else EnergyNodeElement(elements)
 
 
 def _begin(method: Equilibrium, scene: Scene, start: Result | None) -> Path[State]:

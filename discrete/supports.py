@@ -99,6 +99,8 @@ class Supports:
     Attributes:
         held: Held unknowns, ascending; a guide's is the first spin in its own axes.
         firm: Components that are held in global axes, shape (n_nodes, 6).
+        firm_rows: Where these stand among all components of one kind, then all of the next.
+        askew: Nodes with some but not all of three displacements or spins held, which cannot be told in turned axes.
         turns: Prescribed rotations.
         guides: Sections with one held and two free rotations.
     """
@@ -118,6 +120,9 @@ class Supports:
         self.held = node * N_NODE + place
         self.firm = self._places.copy()
         self.firm[one, 3:] = False
+        threes = self._places.reshape(-1, 2, 3)
+        self.askew = np.flatnonzero((threes.any(axis=2) & ~threes.all(axis=2)).any(axis=1))
+        self.firm_rows = np.flatnonzero(self.firm.T)
         self._moved = [part for part in scene.supports if isinstance(part, Prescribed)]
         self.turns = self._turns()
 

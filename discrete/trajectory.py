@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,8 @@ from discrete.record import Snapshot, evenly, histories
 from dolfinrod.result import Formulation, Result, Statistics, StepLog
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from discrete.euler import BackwardEuler, Taken
@@ -18,12 +21,28 @@ if TYPE_CHECKING:
     from discrete.ledger import Ledger
     from discrete.mesh import Mesh
     from discrete.moving import Moving
-    from discrete.statics import Progress
     from dolfinrod.scene import Scene
 
     Array = NDArray[np.float64]
 
-__all__ = ["Trajectory", "formulation"]
+__all__ = ["Entry", "Trajectory", "formulation"]
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """How far a trajectory had come at the end of a step.
+
+    Args:
+        stored: Number of states stored.
+        steps: Number of steps.
+        now: Ledger, in units of the model.
+        last: The last step where its end is not stored, with the state before; None where it is.
+    """
+
+    stored: int
+    steps: int
+    now: Mapping[str, float]
+    last: tuple[Moving, Taken] | Snapshot | None = None
 
 
 class Trajectory:
@@ -36,7 +55,12 @@ class Trajectory:
         ledger: Of its energy, which it keeps.
         start: The first state.
         force: End forces of the elements there, shape (n, 13).
-        progress: Called with every step and the final time.
+
+    Attributes:
+        log: One row a step.
+        kept: Stored states.
+        books: Ledger at them [J].
+        earlier: Iterations, factorisations and seconds that earlier runs took.
     """
 
     def __init__(
@@ -47,20 +71,28 @@ class Trajectory:
         ledger: Ledger,
         start: Moving,
         force: Array,
-        progress: Progress | None,
     ) -> None:
         self._scene, self._method, self._laws, self._ledger = scene, method, laws, ledger
-        self._progress, self._unstored = progress, None
+        self._unstored: tuple[Moving, Taken] | Snapshot | None = None
         self.log: list[StepLog] = []
-        line = evenly(method.loads.level(start.t).line)
-        self._kept: list[Snapshot] = []
-        self._books: list[dict[str, float]] = []
-        self._store(start, force, line)
+        self.kept: list[Snapshot] = []
+        self.books: list[dict[str, float]] = []
+        self.earlier = 0, 0, 0.0
         self._share = _shares(method.mesh)
+        self._store(self._snapshot(start, force, evenly(method.loads.level(start.t).line)))
 
-    _unstored: tuple[Moving, Taken] | None
+    @property
+    def entry(self) -> Entry:
+        """How far it has come."""
+        return Entry(len(self.kept), len(self.log), dict(self._ledger.now), self._unstored)
 
-    def accept(self, before: Moving, taken: Taken, cuts: int, stored: bool) -> None:
+    @property
+    def work(self) -> tuple[int, int, float]:
+        """Iterations and factorisations so far, and the seconds that earlier runs took."""
+        iterations, factorizations, seconds = self.earlier
+        return self._method.iterations + iterations, self._method.factorizations + factorizations, seconds
+
+    def accept(self, before: Moving, taken: Taken, cuts: int, stored: bool) -> Entry:
         """Add a step.
 
         Args:
@@ -68,22 +100,29 @@ class Trajectory:
             taken: The step.
             cuts: Attempts lost before it.
             stored: Whether its end is.
+
+        Returns:
+            How far it has come.
         """
         strain, damped = self._laws.accept(taken, taken.state.t - before.t)
         self._ledger.add(before, taken, strain, damped)
         energy = strain * self._method.mesh.units.moment
-        row = StepLog(taken.state.t, taken.iterations, cuts, taken.residual, energy)
-        self.log.append(row)
+        self.log.append(StepLog(taken.state.t, taken.iterations, cuts, taken.residual, energy))
         self._unstored = before, taken
         if stored:
             self.finish()
-        if self._progress is not None:
-            self._progress(row, self._scene.motion.t_end)
+        return self.entry
 
-    def finish(self) -> None:
-        """Store the last state unless it is already."""
-        if self._unstored is None:
-            return
+    def rewind(self, entry: Entry, state: Moving) -> None:
+        """Be what it was at the end of a step that led to a state."""
+        del self.kept[entry.stored :], self.books[entry.stored :], self.log[entry.steps :]
+        self._ledger.now, self._unstored = dict(entry.now), entry.last
+        self._laws.begin(state)
+
+    def last(self) -> Snapshot | None:
+        """The last state where it is not stored; None where it is."""
+        if not isinstance(self._unstored, tuple):
+            return self._unstored
         before, taken = self._unstored
         state, dt = taken.state, taken.state.t - before.t
         nodal = taken.drag - self._method.inertia.force(state.v - before.v, dt)
@@ -91,7 +130,13 @@ class Trajectory:
         halves = evenly(taken.level.line)
         halves[:, 0] += self._share[:, :1] * nodal[node_i]
         halves[:, 1] += self._share[:, 1:] * nodal[node_i + 1]
-        self._store(state, taken.force, halves)
+        return self._snapshot(state, taken.force, halves)
+
+    def finish(self) -> None:
+        """Store the last state unless it is already."""
+        last = self.last()
+        if last is not None:
+            self._store(last)
         self._unstored = None
 
     def result(
@@ -106,27 +151,30 @@ class Trajectory:
             converged: Whether the end was reached.
         """
         mesh = self._method.mesh
-        work = self._method.iterations, self._method.factorizations
-        statistics = Statistics(sum(shape.unknowns.values()), len(self.log), *work, 0.0, *seconds)
+        iterations, factorizations, earlier = self.work
+        setup, solve = seconds
+        cost = len(self.log), iterations, factorizations, 0.0, setup, earlier + solve
+        statistics = Statistics(sum(shape.unknowns.values()), *cost)
         return Result(
             scene=self._scene,
-            t=np.array([kept.t for kept in self._kept]),
-            rods=histories(mesh, [rod.section for rod in self._scene.rods], self._kept),
+            t=np.array([kept.t for kept in self.kept]),
+            rods=histories(mesh, [rod.section for rod in self._scene.rods], self.kept),
             converged=converged,
             log=tuple(self.log),
-            energy={name: np.array([book[name] for book in self._books]) for name in self._books[0]},
+            energy={name: np.array([book[name] for book in self.books]) for name in self.books[0]},
             statistics=statistics,
             formulation=shape,
             state=state,
         )
 
-    def _store(self, state: Moving, force: Array, halves: Array) -> None:
-        unit = self._method.mesh.units.moment
-        book = {name: value * unit for name, value in self._ledger.now.items()}
+    def _snapshot(self, state: Moving, force: Array, halves: Array) -> Snapshot:
         elastic = self._laws.elastic_force(state)
-        kept = Snapshot(state.t, state.x, state.R, force, halves, book["strain"] / unit, state.v, state.ω, elastic)
-        self._kept.append(kept)
-        self._books.append(book)
+        return Snapshot(state.t, state.x, state.R, force, halves, self._ledger.now["strain"], state.v, state.ω, elastic)
+
+    def _store(self, kept: Snapshot) -> None:
+        unit = self._method.mesh.units.moment
+        self.kept.append(kept)
+        self.books.append({name: value * unit for name, value in self._ledger.now.items()})
 
 
 def formulation(scene: Scene, cut: Mesh, notes: tuple[str, ...]) -> Formulation:

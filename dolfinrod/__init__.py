@@ -11,6 +11,7 @@ Importing this package loads neither DOLFINx nor PETSc; `solve` does.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from dolfinrod.eigen import Buckling, Modes, RodShapes
@@ -42,6 +43,7 @@ from dolfinrod.scene import (
 )
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Sequence
 
     from mpi4py.MPI import Intracomm
@@ -95,8 +97,9 @@ def solve(
     comm: Intracomm | None = None,
     progress: Callable[[StepLog, float], None] | None = None,
     start: Result | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
 ) -> Result:
-    """Equilibrium path of a scene by the continuum model.
+    """Equilibrium path or motion of a scene by the continuum model.
 
     Args:
         scene: The problem.
@@ -104,23 +107,26 @@ def solve(
         degree: Degree of centreline and rotation, 1 to 5.
         kinematics: `Planar()` or `Spatial()`; by default planar where the whole scene lies in one plane.
         comm: MPI communicator, by default the world; all its ranks call together and get the same complete result.
-        progress: Called with each accepted step and the final pseudo-time.
+        progress: Called with each accepted step and the final time or pseudo-time.
         start: An earlier result on the same elements: its last state is the first guess; of the same scene, stepping
-            goes on from its last pseudo-time.
+            goes on from its last pseudo-time. A motion in time goes on where a result of it ended; its steps, output
+            and t_end may be others.
+        checkpoint: HDF5 file that the run is kept in every minute and when it ends. Where it exists the run goes on
+            from there, on any number of ranks and to a later t_end if wanted; of another scene or mesh it is refused.
+            Functions of time and place count as the same where some of their values are.
 
     Returns:
-        The states at the accepted load steps.
+        The states at the accepted load steps or output times.
 
     Raises:
-        SceneError: The scene or an option cannot be solved as given.
+        SceneError: The scene, an option, the start or the checkpoint cannot be solved or gone on from as given.
         NotConverged: A load step could not be taken; carries what had converged.
     """
     # DOLFINx takes a second to load and is not there on every machine that only writes scenes.
     from dolfinrod.continuum import solve as solve_continuum
 
-    return solve_continuum(
-        scene, elements=elements, degree=degree, kinematics=kinematics, comm=comm, progress=progress, start=start
-    )
+    solving = partial(solve_continuum, scene, elements=elements, degree=degree, kinematics=kinematics, comm=comm)
+    return solving(progress=progress, start=start, checkpoint=checkpoint)
 
 
 def buckling(

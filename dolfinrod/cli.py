@@ -61,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
                 raise SceneError(f"--{key} belongs to the continuum model, but --model is {options.model}")
     _check_writable(options.out)
     # Every model first, files after: input that one of them refuses leaves nothing written.
-    outcomes = {model: _solve(model, scene, chosen) for model in models}
+    outcomes = {model: _solve(model, scene, chosen | _kept_in(options.checkpoint, model, models)) for model in models}
     if _is_first_rank():
         for model, (result, failure) in outcomes.items():
             print(summary(model, result))
@@ -75,6 +75,13 @@ def run(options: argparse.Namespace) -> int:
     for model, failure in failures.items():
         _complain(f"{model}: {failure}")
     return NOT_CONVERGED if failures else SOLVED
+
+
+def _kept_in(checkpoint: Path | None, model: str, models: Sequence[str]) -> dict[str, Path]:
+    """Where a run is kept: one file, or one a model, such as run-discrete.h5."""
+    if checkpoint is None or len(models) == 1 or not checkpoint.name:
+        return {} if checkpoint is None else {"checkpoint": checkpoint}
+    return {"checkpoint": checkpoint.with_name(f"{checkpoint.stem}-{model}{checkpoint.suffix}")}
 
 
 def info(options: argparse.Namespace) -> int:
@@ -122,6 +129,7 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("--degree", type=int, metavar="K", help="polynomial degree of the continuum model, 1 to 5")
     command.add_argument("--kinematics", choices=KINEMATICS, help="default: planar where the scene lies in one plane")
     command.add_argument("--out", type=Path, metavar="DIR", help="write result.json, rod-*.csv and scene.toml here")
+    command.add_argument("--checkpoint", type=Path, metavar="FILE", help="keep the run in this file, go on from there")
     command = commands.add_parser("info", help="versions; what a scene holds", description=info.__doc__)
     command.set_defaults(command=info)
     command.add_argument("scene", metavar="SCENE.toml", type=Path, nargs="?")

@@ -19,9 +19,11 @@ if TYPE_CHECKING:
 __all__ = ["Chord"]
 
 # Ratio of an increment to the one before, with a kept tangent, beyond which a new one costs less than more iterations.
-SLOW = 0.1
+SLOW = 0.03
+# A tangent that has served makes increments smaller by more than this, until round-off is what is left.
+STALLED = 0.1
 # A new tangent costs about as much as this many iterations with an old one.
-DEAR = 5
+DEAR = 2
 # Steps that differ by less than this part have the same tangent, but for terms of that size.
 SAME = 1e-3
 
@@ -42,14 +44,14 @@ class Chord(Newton):
         super().__init__(problem)
         self._h = np.nan
         self._when_new = self._excess = 0
-        self._serves = self._is_fresh = self._stalls = False
+        self._serves = self._is_fresh = self._stalls = self._contracted = False
 
     def solve(self, last: NDArray[np.float64] | None = None) -> Outcome:
         """State after the step that the problem has begun."""
         h = self.problem.h
         if not abs(h - self._h) <= SAME * h:
             self._serves = False
-        self._stalls = False
+        self._stalls = self._contracted = False
         factorizations = self.factorizations
         outcome = super().solve(last)
         self._age(outcome, is_new=self.factorizations > factorizations)
@@ -77,10 +79,13 @@ class Chord(Newton):
         if not np.isfinite(before):
             return np.inf
         ratio = size / before
-        self._stalls = not self._is_fresh and ratio > SLOW
-        self._serves = not self._stalls or size < TOLERANCE
+        self._contracted = self._contracted or ratio <= SLOW
+        self._stalls = ratio > STALLED and (self._is_fresh or self._contracted)
+        self._serves = self._is_fresh or ratio <= SLOW or self._stalls or size < TOLERANCE
         return size * ratio
 
     def _settled(self) -> bool:
-        """A tangent that has served well serves on: where it does not any more, round-off is what is left."""
-        return self._next < NEGLIGIBLE or (self._size < TOLERANCE and (self._is_fresh or self._stalls))
+        """Also where round-off is left: in stiff rods that of the positions is more than `TOLERANCE` of the forces."""
+        if self._next < NEGLIGIBLE or (self._is_fresh and self._size < TOLERANCE):
+            return True
+        return self._stalls and (self._size < TOLERANCE or self._moved < NEGLIGIBLE)

@@ -10,7 +10,8 @@ import numpy as np
 
 from dolfinrod.continuum import backend, reference
 from dolfinrod.continuum.banded import Band
-from dolfinrod.continuum.forms import forms_of
+from dolfinrod.continuum.excess import Excess, Sum
+from dolfinrod.continuum.forms import excess_forms_of, forms_of
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from dolfinx import fem
     from numpy.typing import NDArray
 
+    from dolfinrod.continuum.forms import ExcessForms
     from dolfinrod.continuum.kinematics import Kinematics
 
 __all__ = ["Discretization", "Values"]
@@ -33,12 +35,14 @@ class Values:
         r_0: Stress-free centreline at the nodes, shape (cells, k + 1, d).
         C_n: Compliance of stretch and shear at the Gauss points, shape (cells, points, d, d).
         C_m: Compliance of twist and bending there, shape (cells, points, n_spin, n_spin).
+        τ: Retardation time of each cell [s], shape (cells,).
     """
 
     ends: NDArray[np.float64]
     r_0: NDArray[np.float64]
     C_n: NDArray[np.float64]
     C_m: NDArray[np.float64]
+    τ: NDArray[np.float64]
 
 
 class Discretization:
@@ -49,11 +53,16 @@ class Discretization:
         kinematics: Spatial or planar.
         degree: Degree k of centreline and rotation; resultants have k − 1.
         elements: Number of elements of each rod.
+        stepped: Whether resultants follow other strains than those of the state at which they act.
 
     Attributes:
         points: Gauss points on [0, 1].
         dofs: Local numbers of each field, name → (cells, nodes, components).
         state: Values of all unknowns on this rank, owned ones first, then ghosts: the memory of `x`.
+        elastic: Residual of the rods alone.
+        residual: Residual of the forms.
+        tangent: Its derivative.
+        excess: What other strains add to both; None where there are none.
         matrix: Tangent, with the pattern of the elements.
         band: Its layout as a band; None on several ranks.
         cell: For each local cell, its number when all rods are lined up.
@@ -61,18 +70,21 @@ class Discretization:
         seconds_compile: Time for making or loading forms [s].
     """
 
-    def __init__(self, comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...]) -> None:
+    def __init__(
+        self, comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...], *, stepped: bool = False
+    ) -> None:
         self.comm, self.kinematics, self.degree, self.elements = comm, kinematics, degree, elements
         nodes = [np.linspace(0.0, 1.0, n + 1) for n in elements]
         started = time.perf_counter()
         self.forms = forms_of(comm, kinematics, degree)
+        excess = excess_forms_of(comm, kinematics, degree) if stepped else None
         self.seconds_compile = time.perf_counter() - started
         self.mesh, self.cell = backend.interval_mesh(comm, nodes)
         self.n_owned_cells = backend.n_owned_cells(self.mesh)
         self.nodes = reference.lagrange_nodes(degree)
         self.points = reference.quadrature_points(2 * degree)
         self._make_spaces()
-        self._bind_forms()
+        self._bind_forms(excess)
         index_map = self.space.dofmap.index_map
         self.n_owned, self.n_dofs = int(index_map.size_local), int(index_map.size_global)
         self.dofs = {f: backend.cell_dofs(self.space, i) for i, f in enumerate(self.kinematics.fields)}
@@ -89,6 +101,8 @@ class Discretization:
         random = np.random.default_rng(seed=0)
         for function in (self.x, self.r_0, self.C_n, self.C_m):
             function.x.array[:] = random.uniform(1.0, 2.0, len(function.x.array))
+        if self.excess is not None:
+            self.excess.scatter(random)
         spanned = self.tangent.matrix()
         self.tangent.add_matrix(spanned)
         every = np.arange(len(self.state), dtype=np.int32)
@@ -109,11 +123,17 @@ class Discretization:
             backend.function(backend.space(self.mesh, elements[name])) for name in ("r_0", "C_n", "C_m", "f")
         )
 
-    def _bind_forms(self) -> None:
+    def _bind_forms(self, excess: ExcessForms | None) -> None:
         functions = {"x": self.x, "r_0": self.r_0, "C_n": self.C_n, "C_m": self.C_m, "f": self.f}
         values = {self.forms.coefficients[name]: function for name, function in functions.items()}
-        self.residual = backend.BoundForm(self.forms.residual, [self.space], values)
-        self.tangent = backend.BoundForm(self.forms.tangent, [self.space, self.space], values)
+        self.elastic = backend.BoundForm(self.forms.residual, [self.space], values)
+        tangent = backend.BoundForm(self.forms.tangent, [self.space, self.space], values)
+        self.excess = None if excess is None else Excess(excess, self.x)
+        self.residual: backend.BoundForm | Sum = self.elastic
+        self.tangent: backend.BoundForm | Sum = tangent
+        if self.excess is not None:
+            self.residual = Sum(self.elastic, self.excess.residual)
+            self.tangent = Sum(tangent, self.excess.tangent)
         self.line_load = backend.BoundForm(self.forms.line_load, [self.space], values)
 
     def owned_nodes(self, field: str) -> NDArray[np.int32]:
@@ -130,6 +150,14 @@ class Discretization:
         for function, C in ((self.C_n, values.C_n), (self.C_m, values.C_m)):
             i, j = np.triu_indices(C.shape[-1])
             self._fill(function, C[..., i, j])
+        self._τ = values.τ
+        if self.excess is not None:
+            self.excess.rest()
+
+    def begin_step(self, x_0: NDArray[np.float64], dt: float, level: float) -> None:
+        """Take the strains of a step of dt [s] from x₀ on; arguments as for `Excess.begin`."""
+        if self.excess is not None:
+            self.excess.begin(x_0, self._τ / dt, level)
 
     def _fill(self, function: fem.Function, at_points: NDArray[np.float64]) -> None:
         """Give a coefficient its values at the Gauss points, shape (cells, points, components)."""
@@ -137,9 +165,16 @@ class Discretization:
 
     def assembled_residual(self) -> NDArray[np.float64]:
         """Residual of the forms at the current state, summed over all ranks, on all local dofs."""
+        return self._summed(self.residual)
+
+    def elastic_residual(self) -> NDArray[np.float64]:
+        """That of the rods alone."""
+        return self._summed(self.elastic)
+
+    def _summed(self, form: backend.BoundForm | Sum) -> NDArray[np.float64]:
         b = self._assembled
         b.x.array[:] = 0.0
-        self.residual.add_vector(b.x.array)
+        form.add_vector(b.x.array)
         backend.sum_over_ranks(b)
         return b.x.array
 

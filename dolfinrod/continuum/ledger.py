@@ -11,6 +11,8 @@ import numpy as np
 from dolfinrod.continuum.strain import Strain
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.moving import Moving
@@ -41,7 +43,16 @@ class Ledger:
 
     def store(self) -> None:
         """Keep what it is now."""
-        self.rows.append(self._now | self._works)
+        self.rows.append(self.now())
+
+    def now(self) -> dict[str, float]:
+        """What it is now."""
+        return self._now | self._works
+
+    def rewind(self, now: Mapping[str, float], stored: int) -> None:
+        """Be what `now` said earlier, with the first rows that were stored."""
+        self._now, self._works = ({name: now[name] for name in part} for part in (self._now, self._works))
+        del self.rows[stored:]
 
     def strain(self) -> float:
         """Strain energy after the last step."""
@@ -56,14 +67,15 @@ class Ledger:
         held = held[held < problem.discretization.n_owned]
         resisted = [float(part @ change) for part in parts]
         pushed = float(np.sum(parts, axis=0)[held] @ change[held])
-        sums = self._summed([*self._energies(), *resisted, pushed])
+        sums = self._summed([*self._energies(), *resisted, pushed, self._strain.dissipated])
         self._now = dict(zip(STORED, sums, strict=False))
         gained = {name: self._now[name] - before[name] for name in before}
-        inertia, elastic, loads, drag, support = sums[len(STORED) :]
+        inertia, elastic, loads, drag, support, dissipated = sums[len(STORED) :]
         self._works["load work"] += gained["potential"] - loads
         self._works["drag"] -= drag
         self._works["support work"] += support
-        self._works["numerical"] += gained["kinetic"] + gained["strain"] - inertia - elastic
+        self._works["damping"] -= dissipated
+        self._works["numerical"] += gained["kinetic"] + gained["strain"] - inertia - elastic + dissipated
 
     def _forces(self) -> list[Array]:
         """Residuals of the step's parts at this rank's own dofs, along the sphere of the balance."""

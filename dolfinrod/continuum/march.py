@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.continuum.couples import Couples
 from dolfinrod.continuum.ledger import Ledger
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.pace import Pace
 from dolfinrod.continuum.predictor import Predictor
 from dolfinrod.continuum.stepping import StepFailed
+from dolfinrod.continuum.trajectory import Mark, Trajectory
 from dolfinrod.result import StepLog
 from dolfinrod.scene.history import kinks
 
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["March", "Trajectory", "begin"]
+__all__ = ["March", "begin"]
 
 # Halvings of a step that does not converge.
 MOST_CUTS = 10
@@ -35,23 +36,6 @@ MOST_CUTS = 10
 SAME = 1e-9
 # Error allowed in a step of free length, in L, and the first such step over the unit of time.
 TOLERANCE, FIRST = 1e-6, 1e-4
-
-
-@dataclass
-class Trajectory:
-    """What is kept of a motion.
-
-    Args:
-        t: Stored times [s].
-        states: Gathered states at them, with velocities "v" and momenta "π".
-        log: One row a step.
-        iterations: All Newton iterations, failed attempts included.
-    """
-
-    t: list[float] = field(default_factory=list)
-    states: list[State] = field(default_factory=list)
-    log: list[StepLog] = field(default_factory=list)
-    iterations: int = 0
 
 
 def begin(problem: Moving) -> None:
@@ -84,6 +68,9 @@ class March:
         readout: Gathers states.
         trajectory: Grows.
         progress: Called with every step and the final time.
+
+    Attributes:
+        mark: The last state that counts.
     """
 
     def __init__(
@@ -95,50 +82,81 @@ class March:
         trajectory: Trajectory,
         progress: Callable[[StepLog, float], None] | None,
     ) -> None:
-        self.newton, self._readout, self.trajectory, self._progress = newton, readout, trajectory, progress
+        self.newton, self.readout, self.trajectory, self._progress = newton, readout, trajectory, progress
         self.problem, self._times = problem, times
-        self.ledger, self._predictor = Ledger(problem), Predictor(problem)
+        self.ledger, self._predictor = Ledger(problem), Predictor(problem, 0.0)
+        self._couples = Couples(problem) if problem.lumped.J.any() else None
         order = problem.scheme.order + 1
         if times.dt is None:
             first = FIRST * min(problem.lumped.second, times.t_end)
             self._pace = Pace(first, order, TOLERANCE if times.tol is None else times.tol)
         else:
             self._pace = Pace(times.dt, order)
+        self.mark = Mark(0.0, problem.x.copy(), problem.motion, self._pace.length, self.ledger.now())
 
-    def run(self) -> None:
+    @property
+    def even(self) -> bool:
+        """Whether the scene says how long a step is."""
+        return self._times.dt is not None
+
+    def take_up(self, mark: Mark) -> None:
+        """Go on from another state; the trajectory is that up to there."""
+        self.mark = mark
+        self._rewind()
+        self._predictor = Predictor(self.problem, mark.t)
+
+    def run(self, keep: Callable[[], None] | None = None) -> None:
         """Go from the present state to the end of the scene's time.
+
+        Args:
+            keep: Called at the end of every step.
 
         Raises:
             StepFailed: A step could not be taken, however short.
         """
-        t, stored = 0.0, outputs(self._times)
-        self._store(t)
+        stored = outputs(self._times)
+        self._begin()
         for target in targets(self.problem.scene, self._times):
-            while t < target * (1.0 - SAME):
-                t = self._step(t, target)
-                if stored is None:
-                    self._store(t)
-            if stored is not None and np.abs(stored - target).min() <= SAME * target:
-                self._store(t)
+            due = stored is not None and bool(np.abs(stored - target).min() <= SAME * target)
+            while self.mark.t < target * (1.0 - SAME):
+                t, outcome, cuts = self._step(self.mark.t, target)
+                self._accept(t, outcome, cuts, store=stored is None or (due and t >= target * (1.0 - SAME)))
+                if keep is not None:
+                    keep()
+                if self._progress is not None:
+                    self._progress(self.trajectory.log[-1], self.problem.scene.motion.t_end)
 
-    def _step(self, t: float, target: float) -> float:
-        """One step towards the target, shorter if it has to be; the time it leads to."""
-        problem, trajectory, pace = self.problem, self.trajectory, self._pace
-        start, motion = problem.x.copy(), problem.motion
+    def settle(self) -> None:
+        """Back to the mark: who interrupts may do so in the middle of a step."""
+        self._rewind()
+        self._begin()
+
+    def store_last(self) -> None:
+        """Store the state at the mark, unless it is already."""
+        if self.trajectory.t[-1] < self.mark.t:
+            self._store(self.mark.t)
+
+    def _begin(self) -> None:
+        """Store the first state."""
+        if not self.trajectory.t:
+            self._store(self.mark.t)
+            self._set_mark(self.mark.t)
+
+    def _step(self, t: float, target: float) -> tuple[float, Outcome, int]:
+        """One step towards the target, shorter if it has to be; the time it leads to, and the attempts lost."""
+        problem, pace = self.problem, self._pace
+        start, motion = self.mark.x, self.mark.motion
         n = np.ceil((target - t) / pace.length * (1.0 - SAME))
         tried = (target - t) / max(n, 1.0)
         for cuts in range(MOST_CUTS + 1):
             problem.begin_step(t, tried)
             problem.x[:] = self._predictor.guess(t + tried)
             outcome = self.newton.solve()
-            trajectory.iterations += outcome.iterations
+            self.trajectory.iterations += outcome.iterations
             if outcome.converged:
                 problem.end_step()
                 if pace.allows(problem.local_error(), tried):
-                    self._predictor.learn(t + tried)
-                    self.ledger.step()
-                    self._log(t + tried, outcome, cuts)
-                    return target if n <= 1.0 and not cuts else t + tried
+                    return (target if n <= 1.0 and not cuts else t + tried), outcome, cuts
                 tried = min(pace.length, tried)
             else:
                 pace.fail(tried)
@@ -147,17 +165,45 @@ class March:
             problem.motion = motion
         raise StepFailed(t=t, step=2 * tried, reason=outcome.reason)
 
-    def _log(self, t: float, outcome: Outcome, cuts: int) -> None:
+    def _accept(self, t: float, outcome: Outcome, cuts: int, *, store: bool) -> None:
+        """Book the step that has led to t."""
+        self._predictor.learn(t)
+        self.ledger.step()
         energy = self.ledger.strain() * self.problem.placement.moment
-        row = StepLog(t, outcome.iterations, cuts, outcome.residual, energy)
-        self.trajectory.log.append(row)
-        if self._progress is not None:
-            self._progress(row, self.problem.scene.motion.t_end)
+        self.trajectory.log.append(StepLog(t, outcome.iterations, cuts, outcome.residual, energy))
+        if store:
+            self._store(t)
+        self._set_mark(t)
 
     def _store(self, t: float) -> None:
         self.trajectory.t.append(t)
-        self.trajectory.states.append(self._readout.state() | self.problem.rates(self._readout))
+        self.trajectory.states.append(self.state())
         self.ledger.store()
+
+    def state(self) -> State:
+        """Gathered state with velocities "v" and spins "omega", and the couples of sections that have inertia."""
+        state = self.readout.state() | self.problem.rates(self.readout)
+        if self._couples is not None:
+            state |= self.readout.gather(couples=self._couples.rates())
+        return state
+
+    def _set_mark(self, t: float) -> None:
+        problem, kept = self.problem, self.trajectory
+        count = len(kept.t), len(kept.log), kept.iterations
+        excess = problem.discretization.excess
+        strained = None if excess is None else excess.step()
+        self.mark = Mark(t, problem.x.copy(), problem.motion, self._pace.length, self.ledger.now(), *count, strained)
+
+    def _rewind(self) -> None:
+        """Forget what came after the mark."""
+        mark, kept = self.mark, self.trajectory
+        self.problem.x[:] = mark.x
+        self.problem.motion, self._pace.length = mark.motion, mark.length
+        if mark.strained is not None and self.problem.discretization.excess is not None:
+            self.problem.discretization.excess.after(mark.strained)
+        del kept.t[mark.stored :], kept.states[mark.stored :], kept.log[mark.steps :]
+        kept.iterations = mark.iterations
+        self.ledger.rewind(mark.energy, mark.stored)
 
 
 def targets(scene: Scene, times: Dynamic) -> list[float]:
@@ -179,6 +225,6 @@ def outputs(times: Dynamic) -> Array | None:
     if output is None:
         return None
     if not isinstance(output, float):
-        return np.array(output)
+        return np.union1d(output, [times.t_end])
     n = int(np.floor(times.t_end / output * (1.0 + SAME)))
     return np.asarray(np.union1d(output * np.arange(1, n + 1), [times.t_end]))

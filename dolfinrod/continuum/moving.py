@@ -13,7 +13,7 @@ from dolfinrod.continuum.drag import Drag
 from dolfinrod.continuum.lumped import Lumped, summed
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.problem import Problem
-from dolfinrod.continuum.turning import Turning
+from dolfinrod.continuum.turning import NoTurning, Turning
 from dolfinrod.scene import Gravity, LineForce, Steady
 
 if TYPE_CHECKING:
@@ -53,7 +53,8 @@ class Moving(Problem):
         self.lumped = Lumped.of(self)
         self.motion = Motion(np.zeros(self.lumped.r.shape), np.zeros((len(self.lumped.q), self.kinematics.n_spin)))
         self._before, self._start = self.x.copy(), self.motion
-        self._turning = Turning(self.kinematics, scheme, self.lumped.J)
+        turns = discretization.comm.allreduce(bool(self.lumped.J.any()), op=MPI.LOR)
+        self._turning = (Turning if turns else NoTurning)(self.kinematics, scheme, self.lumped.J)
         lines = [load for load in scene.loads if isinstance(load, Gravity | LineForce)]
         self._weights = [
             summed(self, vector)
@@ -85,6 +86,7 @@ class Moving(Problem):
         self._before[:] = self.x
         self._start = self.motion
         self.h = dt / self.lumped.second
+        self.discretization.begin_step(self._before, dt, self.scheme.level)
         self.advance_to(t + self.scheme.level * dt)
         self.x[self.constraints.dofs] = self.constraints.values(t + dt)
         self._r_0 = self._before[self.lumped.r]

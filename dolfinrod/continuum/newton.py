@@ -80,7 +80,7 @@ class Newton:
         self._linear = [d.owned_nodes(f).ravel() for f in ("r", "N", "m")]
         self._m = self._linear[-1]
         self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
-        self._size = self._next = np.inf
+        self._size = self._next = self._moved = np.inf
         self._open()
 
     def _open(self) -> None:
@@ -185,6 +185,7 @@ class Newton:
             y[self._m] *= LARGEST_TURN / turn
         self._watch.see(q, increment, limited=turn > LARGEST_TURN)
         y[self._q] = q - kin.turn(q, increment)
+        self._moved = max(turn, largest[1])
         before, self._size = (self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0))))
         self._next = self._expected(before, self._size)
         return True

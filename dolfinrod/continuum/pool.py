@@ -21,7 +21,7 @@ __all__ = ["borrowed"]
 MOST_KEPT = 8
 
 # Only for communicators that are never freed: the ranks of each make the same calls, so they keep the same ones.
-_IDLE: dict[str, OrderedDict[tuple[str, int, tuple[int, ...]], Discretization]] = {
+_IDLE: dict[str, OrderedDict[tuple[str, int, tuple[int, ...], bool], Discretization]] = {
     "world": OrderedDict(),
     "self": OrderedDict(),
 }
@@ -29,16 +29,16 @@ _IDLE: dict[str, OrderedDict[tuple[str, int, tuple[int, ...]], Discretization]] 
 
 @contextmanager
 def borrowed(
-    comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...]
+    comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...], *, stepped: bool = False
 ) -> Iterator[tuple[Discretization, bool]]:
     """A discretization for the time of one solve, and whether it was made for it.
 
     It leaves the pool while in use, so a solve started from within another one gets its own.
     """
     idle = _IDLE["world"] if comm == MPI.COMM_WORLD else _IDLE["self"] if comm == MPI.COMM_SELF else None
-    key = (kinematics.name, degree, elements)
+    key = (kinematics.name, degree, elements, stepped)
     found = None if idle is None else idle.pop(key, None)
-    discretization = Discretization(comm, kinematics, degree, elements) if found is None else found
+    discretization = Discretization(comm, kinematics, degree, elements, stepped=stepped) if found is None else found
     yield discretization, found is None
     if idle is not None:
         idle[key] = discretization

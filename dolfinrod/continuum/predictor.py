@@ -27,10 +27,11 @@ class Predictor:
     Smooth motion is met by a high order; where loads jump, or waves are not resolved by the steps, a low one is better.
 
     Args:
-        problem: Owner of the state, at the beginning of the motion.
+        problem: Owner of the state.
+        t: Its time [s].
     """
 
-    def __init__(self, problem: Moving) -> None:
+    def __init__(self, problem: Moving, t: float) -> None:
         self._problem = problem
         d = problem.discretization
         self._r = problem.lumped.r
@@ -39,7 +40,7 @@ class Predictor:
         self._free[problem.constraints.dofs] = False
         self._free[np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))] = False
         self._quaternions = np.unique(d.dofs["q"].reshape(-1, d.dofs["q"].shape[2]), axis=0)
-        self._t, self._x = np.zeros(1), problem.x[None].copy()
+        self._t, self._x = np.array([t]), problem.x[None].copy()
         self._best, self._guesses = 0, self._x
 
     def guess(self, t: float) -> Array:

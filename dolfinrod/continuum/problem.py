@@ -112,6 +112,7 @@ class Problem:
             r_0=r_0,
             C_n=exact_zeros(np.einsum("cqij,cj,cqkj->cqik", directions, c_n[self.rod], directions), axis=(2, 3)),
             C_m=exact_zeros(np.einsum("cqij,cj,cqkj->cqik", self.spins, c_m[self.rod], self.spins), axis=(2, 3)),
+            τ=np.array([section.damping for section in sections])[self.rod],
         )
         d.set(self.values)
         self.R_0 = self._on_rods(self.s, "frames")
@@ -155,13 +156,16 @@ class Problem:
         self.discretization.residual.add_vector(b)
         self.add_loads(b, self.x)
 
+    def loaded_dofs(self) -> list[NDArray[np.int32]]:
+        """Dofs on which the point loads of this rank act."""
+        return [term.residual(self.x)[0].ravel() for term in self._acting]
+
     def add_loads(self, b: NDArray[np.float64], x: NDArray[np.float64]) -> None:
         """Add what the loads at the current time put on a state."""
         for history, vector in self.line_loads:
             b += factor(history, self.t, self.scene.motion.t_end) * vector
         for term in self._acting:
-            rows, values = term.residual(x)
-            np.add.at(b, rows, values)
+            np.add.at(b, *term.residual(x))
 
     def balance_multipliers(self, b: NDArray[np.float64]) -> None:
         """Give each multiplier the value at which the residual b has no part along its quaternion.

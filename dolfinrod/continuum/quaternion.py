@@ -29,6 +29,17 @@ __all__ = [
 ]
 
 
+# Row by row, the entry of Im(δp p̄) or Im(p̄ δp) as a matrix on δp is this component of p with this sign.
+PLACES = np.eye(4)[[[1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]]]
+LEFT, RIGHT = (
+    np.ascontiguousarray((np.array(signs)[:, :, None] * PLACES).reshape(12, 4).T)
+    for signs in (
+        [[-1, 1, -1, 1], [-1, 1, 1, -1], [-1, -1, 1, 1]],
+        [[-1, 1, 1, -1], [-1, -1, 1, 1], [-1, 1, -1, 1]],
+    )
+)
+
+
 def rotation(p: Expr) -> Expr:
     """Rotation matrix R(p) of a quaternion of any norm, UFL, shape (3, 3)."""
     w, x, y, z = (p[i] for i in range(4))
@@ -67,12 +78,12 @@ def crossed(a: NDArray[np.float64], columns: NDArray[np.float64]) -> NDArray[np.
 
 def left(p: NDArray[np.float64]) -> NDArray[np.float64]:
     """Im(δp p̄) as a matrix acting on δp: half the spatial spin, shape (n, 3, 4) for p of shape (n, 4)."""
-    return p[:, [[1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]]] * [[-1, 1, -1, 1], [-1, 1, 1, -1], [-1, -1, 1, 1]]
+    return (p @ LEFT).reshape(-1, 3, 4)
 
 
 def right(p: NDArray[np.float64]) -> NDArray[np.float64]:
     """Im(p̄ δp) as a matrix acting on δp: half the spin in the rotated frame, shape (n, 3, 4)."""
-    return p[:, [[1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]]] * [[-1, 1, 1, -1], [-1, -1, 1, 1], [-1, 1, -1, 1]]
+    return (p @ RIGHT).reshape(-1, 3, 4)
 
 
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:

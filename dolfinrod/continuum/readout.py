@@ -24,6 +24,10 @@ State = dict[str, "NDArray[np.float64]"]
 class Readout:
     """Gathers states and turns them into histories.
 
+    Where sections damp, the n and m of a history hold the viscous part, of the mean rates in the step that led to the
+    state: what has acted in a step of backward Euler, a first-order estimate after one of the midpoint rule. Strains
+    are those of the state.
+
     Args:
         problem: Owner of the state.
     """
@@ -51,7 +55,10 @@ class Readout:
         """The whole state by field, each (cells, nodes, components), cells lined up, in working units."""
         d, x = self.problem.discretization, self.problem.x
         nodal = d.assembled_residual()[d.dofs["q"]]
-        return self.gather(nodal=nodal, **{field: x[dofs] for field, dofs in d.dofs.items()})
+        fields = {field: x[dofs] for field, dofs in d.dofs.items()}
+        if d.excess is not None and any(rod.section.damping for rod in self.problem.scene.rods):
+            fields |= {f"{f}_viscous": d.excess.resultants[d.dofs[f]] for f in ("N", "m")}
+        return self.gather(nodal=nodal, **fields)
 
     def restore(self, state: State) -> None:
         """Make a gathered state the current one."""
@@ -74,7 +81,8 @@ class Readout:
         """One history a rod from the gathered states."""
         p = self.problem
         reference = self.gather(s=p.s, R_0=p.R_0)
-        stacked = {f: np.stack([state[f] for state in states]) for f in ("r", "q", "N", "nodal")}
+        used = {"r", "q", "N", "nodal", "couples", "N_viscous", "m_viscous"}.intersection(states[0])
+        stacked = {f: np.stack([state[f] for state in states]) for f in used}
         s, R_0 = reference["s"][:, self._order], reference["R_0"][:, self._order]
         first = np.concatenate([[0], np.cumsum(p.discretization.elements)])
         return tuple(
@@ -95,23 +103,38 @@ class Readout:
         p, place = self.problem, self.problem.placement
         r, q = (_joined(states[f][:, cells][:, :, self._order]) for f in ("r", "q"))
         r_e, q_e, N_e, nodal = (states[f][:, cells] for f in ("r", "q", "N", "nodal"))
+        couples = states["couples"][:, cells] if "couples" in states else None
         N = _averaged(np.einsum("na,tcai->tcni", self._to_nodes, N_e))
-        m = _averaged(self._sections.moments(r_e, N_e, q_e[:, :, 0], nodal[:, :, 0]))
+        m = _averaged(self._sections.moments(r_e, N_e, q_e[:, :, 0], nodal[:, :, 0], couples))
         frames_0 = _joined(R_0.reshape(1, *R_0.shape[:2], 9))[0].reshape(-1, 3, 3)
         turned = p.kinematics.turned_frames(q, place.spin_axes, frames_0)
         n = np.einsum("tsji,tsj->tsi", turned, N @ place.axes.T) * place.force
         m = np.einsum("tsji,tsj->tsi", turned, m @ place.spin_axes.T) * place.moment
+        n_v, m_v = self._viscous(cells, turned, frames_0, states)
         section = p.scene.rods[rod].section
-        length = place.length
         return RodHistory(
-            s=_joined(s[None, :, :, None])[0, :, 0] * length,
+            s=_joined(s[None, :, :, None])[0, :, 0] * place.length,
             r=place.to_space(r),
             frames=turned,
-            gamma=n * np.asarray(section.compliance_n),
-            kappa=m * np.asarray(section.compliance_m),
+            gamma=(n - n_v) * np.asarray(section.compliance_n),
+            kappa=(m - m_v) * np.asarray(section.compliance_m),
             n=n,
             m=m,
         )
+
+    def _viscous(
+        self, cells: slice, turned: NDArray[np.float64], frames_0: NDArray[np.float64], states: State
+    ) -> tuple[NDArray[np.float64] | float, NDArray[np.float64] | float]:
+        """The part of n and m in section frames that damping has, zero where none does."""
+        if "N_viscous" not in states:
+            return 0.0, 0.0
+        place = self.problem.placement
+        N, m = (
+            _averaged(np.einsum("na,tcai->tcni", self._to_nodes, states[f][:, cells]))
+            for f in ("N_viscous", "m_viscous")
+        )
+        n = np.einsum("tsji,tsj->tsi", turned, N @ place.axes.T) * place.force
+        return n, np.einsum("sji,tsj->tsi", frames_0, m @ place.spin_axes.T) * place.moment
 
 
 def _joined(values: NDArray[np.float64]) -> NDArray[np.float64]:

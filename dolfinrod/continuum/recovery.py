@@ -36,8 +36,11 @@ class Sections:
         points = np.outer(ξ, x).ravel()
         slopes = reference.lagrange_slopes(degree, points).reshape(len(ξ), len(x), -1)
         values = reference.discontinuous_basis(degree - 1, points).reshape(len(ξ), len(x), -1)
-        # ∫ φ_a′ ψ_b from the start of the element to each of its nodes.
+        basis = reference.lagrange_basis(degree, points).reshape(len(ξ), len(x), -1)
+        # ∫ φ_a and ∫ φ_a′ ψ_b from the start of the element to each of its nodes.
+        self._means = np.einsum("i,q,iqa->ia", ξ, w, basis)
         self._integrals = np.einsum("i,q,iqa,iqb->iab", ξ, w, slopes, values)
+        self._shares = reference.node_weights(degree)
 
     def moments(
         self,
@@ -45,6 +48,7 @@ class Sections:
         N: NDArray[np.float64],
         q: NDArray[np.float64],
         nodal: NDArray[np.float64],
+        couples: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]:
         """Moment in space at the nodes of the elements of one rod, in ascending order within each.
 
@@ -53,6 +57,8 @@ class Sections:
             N: Forces, shape (times, cells, k, d).
             q: Rotation at the first node of each element, shape (times, cells, n_q).
             nodal: Residual of the elements there, shape (times, cells, n_q).
+            couples: Moments per ξ that turning sections put on the elements, shape (times, cells, k + 1, n_spin); None:
+                none turn.
 
         Returns:
             Moments, shape (times, cells, k + 1, n_spin).
@@ -61,6 +67,11 @@ class Sections:
         carried = np.einsum("iab,tcabs->tcis", self._integrals, couple)
         spin = self._kin.spin(q.reshape(-1, q.shape[2])).reshape(*q.shape[:2], -1, q.shape[2])
         put = np.einsum("tcij,tcj->tci", spin, nodal) / np.einsum("tcij,tcij->tci", spin, spin)
+        if couples is not None:
+            carried = carried + np.einsum("ia,tcas->tcis", self._means, couples)
+            # The first nodes of the elements carry parts of them too, their own and that of the element before.
+            put = put - self._shares[0] * couples[:, :, 0]
+            put[:, 1:] -= self._shares[1] * couples[:, :-1, 1]
         before = np.cumsum(carried[:, :, -1], axis=1) - carried[:, :, -1]
         return -(np.cumsum(put, axis=1) + before)[:, :, None] - carried
 

@@ -1,14 +1,17 @@
-"""How a step in time weighs forces and inertia: backward Euler, and the variational midpoint rule.
+"""How a step in time weighs forces and inertia: backward Euler, and a midpoint rule that keeps momentum.
 
 With c the turn of a section in a step, R₁ = R₀ cay(c), and μ = J c/h the momentum in stress-free directions:
 
 * backward Euler, all forces at the end: π₁ = R₁ μ, (π₁ − π₀)/h = moment.
-* midpoint, from the discrete action h L(½(q₀ + q₁), (q₁ − q₀)/h) of centreline and quaternions: forces at the mean
-  state, 2 (R₀(μ + ½ c × μ + ¼ (c·μ) c) − π₀)/h = moment, and with −½ c × μ the same at R₁. Turning a rod as a whole
-  changes neither side, so the rule keeps linear and angular momentum to round-off; it is symplectic, so the energy
-  swings by O(h²) and does not drift.
+* midpoint: inertia from the discrete action h T(½(q₀ + q₁), (q₁ − q₀)/h) of centreline and quaternions; forces by the
+  virtual strains of the mean state, 2 (R₀(μ + ½ c × μ + ¼ (c·μ) c) − π₀)/h = moment, and with −½ c × μ the same at R₁.
+  Turning a rod as a whole changes neither side, so linear and angular momentum are kept to round-off. Resultants follow
+  the mean of the strains at both ends of the step, which are none where the rod turns as a whole: strains of the mean
+  state are, ⅛ (ω h)², and burst spinning rods of large EA. What the resultants do differs from what strains store by
+  O(h³) a step, so the energy swings by O(h²).
 
-Source: Marsden & West, Acta Numerica 10, 2001; Kobilarov & Marsden, IEEE Trans. Robotics 27, 2011 (Cayley map).
+Source: Marsden & West, Acta Numerica 10, 2001; Kobilarov & Marsden, IEEE Trans. Robotics 27, 2011 (Cayley map);
+Simo, Tarnow & Doblare, Int. J. Numer. Methods Eng. 38, 1995 (mean strains).
 """
 
 from __future__ import annotations
@@ -48,7 +51,7 @@ class Scheme:
 
 
 EULER = Scheme("implicit Euler", 1.0, 1, 1)
-MIDPOINT = Scheme("variational midpoint", 0.5, 2, 0)
+MIDPOINT = Scheme("midpoint with mean strains", 0.5, 2, 0)
 
 
 def momentum(kin: Kinematics, J: Array, q_0: Array, q_1: Array, h: float, bend: float) -> Array:

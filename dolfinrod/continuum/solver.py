@@ -11,6 +11,8 @@ import numpy as np
 
 from dolfinrod.continuum.dynamics import move
 from dolfinrod.continuum.failure import findings
+from dolfinrod.continuum.keeper import Keeper, onward
+from dolfinrod.continuum.kept import path_of, resumed_path
 from dolfinrod.continuum.lift import restated
 from dolfinrod.continuum.neutral import PhaseCondition
 from dolfinrod.continuum.newton import Newton
@@ -22,6 +24,7 @@ from dolfinrod.continuum.readout import Readout
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stability import judging
 from dolfinrod.continuum.stepping import Path, StepFailed, Walk
+from dolfinrod.continuum.unknowns import unknowns
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import Dynamic, Planar, SceneError, Spatial
 from dolfinrod.scene.advice import advice
@@ -30,6 +33,7 @@ from dolfinrod.scene.kinematics import detect, obstacle
 from dolfinrod.scene.options import element_counts
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Sequence
 
     from dolfinrod.continuum.kinematics import Kinematics
@@ -52,6 +56,7 @@ def solve(
     comm: MPI.Comm | None = None,
     progress: Progress | None = None,
     start: Result | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
 ) -> Result:
     """Equilibrium of geometrically exact rods (Simo-Reissner, Kirchhoff in the limit); see `dolfinrod.solve`."""
     comm = MPI.COMM_WORLD if comm is None else comm
@@ -59,13 +64,15 @@ def solve(
     check_degree(degree)
     chosen = choose(scene, kinematics)
     counts = element_counts(elements, len(scene.rods))
+    keeper = None
+    if checkpoint is not None:
+        options = {"model": "continuum", "elements": counts, "degree": degree, "kinematics": chosen}
+        keeper = Keeper(checkpoint, scene, options | {"judged in space": kinematics is None}, start, comm)
     if isinstance(scene.motion, Dynamic):
-        if start is not None:
-            raise SceneError("start must be None: a scene in motion begins stress free, with its own velocities")
-        result, failure = move(scene, scene.motion, chosen, comm, degree, counts, progress)
+        result, failure = move(scene, scene.motion, chosen, comm, degree, counts, progress, start, keeper)
     else:
         in_space = kinematics is None
-        result, failure = _path(scene, chosen, comm, degree, counts, progress, start, in_space=in_space)
+        result, failure = _path(scene, chosen, comm, degree, counts, progress, start, keeper, in_space=in_space)
     if failure is not None:
         raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=failure.advice)
     return result
@@ -79,6 +86,7 @@ def _path(
     counts: tuple[int, ...],
     progress: Progress | None,
     start: Result | None,
+    keeper: Keeper | None,
     *,
     in_space: bool,
 ) -> tuple[Result, StepFailed | None]:
@@ -88,11 +96,11 @@ def _path(
     with borrowed(comm, rods, degree, counts) as (discretization, is_new):
         problem = Problem(scene, discretization, Placement.of(scene, kinematics))
         newton, phase, readout = Newton(problem), PhaseCondition(problem), Readout(problem)
-        path = _begin(scene, kinematics, readout, start)
+        path = _begin(scene, kinematics, readout, start, keeper)
         compiling = discretization.seconds_compile if is_new else 0.0
         with judging(problem, in_space=in_space) as judge:
             ready = time.perf_counter()
-            failure = _walk(Walk(newton, phase, judge, readout, path, progress))
+            failure = _walk(Walk(newton, phase, judge, readout, path, _heard(path, keeper, progress)), keeper)
             seconds_solve = time.perf_counter() - ready - path.seconds_stability
         if failure is not None and not failure.interrupted:
             failure.advice = advice(scene, findings(readout, path, failure))
@@ -110,17 +118,38 @@ def _path(
         return record(problem, notes, readout, path, statistics, converged=failure is None), failure
 
 
-def _walk(walk: Walk) -> StepFailed | None:
+def _heard(path: Path, keeper: Keeper | None, progress: Progress | None) -> Progress:
+    """What is called with every accepted step: the path is kept, then the user told."""
+
+    def heard(row: StepLog, t_end: float) -> None:
+        if keeper is not None:
+            keeper.now_and_then(row.t, lambda: path_of(path))
+        if progress is not None:
+            progress(row, t_end)
+
+    return heard
+
+
+def _walk(walk: Walk, keeper: Keeper | None) -> StepFailed | None:
     """Step to the end; what stopped it, or None."""
+    failure, path = None, walk.path
     try:
         walk.run()
-    except StepFailed as failure:
-        return failure
+    except StepFailed as caught:
+        failure = caught
     except KeyboardInterrupt:
-        return StepFailed(t=walk.path.t[-1], step=0.0, reason="interrupted by the user", interrupted=True)
+        # The next scene on these elements finds no tangent half put together.
+        walk.newton.problem.discretization.matrix.assemble()
+        # A step that was just being entered counts once its row of the log is there.
+        n = len(path.log) + 1
+        del path.t[n:], path.states[n:], path.energy[n:]
+        failure = StepFailed(t=path.t[-1], step=0.0, reason="interrupted by the user", interrupted=True)
+        failure.advice = onward(keeper)
     finally:
         walk.newton.close()
-    return None
+    if keeper is not None:
+        keeper.write(path.t[-1], lambda: path_of(path))
+    return failure
 
 
 def check_degree(degree: int) -> None:
@@ -153,8 +182,10 @@ def choose(scene: Scene, kinematics: Planar | Spatial | None) -> Planar | Spatia
     return plane
 
 
-def _begin(scene: Scene, kinematics: Planar | Spatial, readout: Readout, start: Result | None) -> Path:
-    """The first state: stress free, or where an earlier result ended."""
+def _begin(
+    scene: Scene, kinematics: Planar | Spatial, readout: Readout, start: Result | None, keeper: Keeper | None
+) -> Path:
+    """The first state, stress free or where an earlier result ended; or the path as far as it is kept."""
     t = 0.0
     if start is not None:
         state = readout.state()
@@ -166,7 +197,12 @@ def _begin(scene: Scene, kinematics: Planar | Spatial, readout: Readout, start: 
         if start.scene == scene and start.t[-1] < scene.motion.t_end:
             t = float(start.t[-1])
     stable = True if start is None else start.log[-1].stable if start.log else None
-    return Path(t=[t], states=[readout.state()], energy=[readout.energy()], stable=stable)
+    path = Path(t=[t], states=[readout.state()], energy=[readout.energy()], stable=stable)
+    kept = None if keeper is None else keeper.read()
+    if kept is not None:
+        path = resumed_path(path, kept)
+        readout.restore(path.states[-1])
+    return path
 
 
 def record(
@@ -174,10 +210,6 @@ def record(
 ) -> Result:
     """What a solve leaves behind."""
     d = problem.discretization
-    unknowns = {field: int(np.prod(path.states[0][field].shape)) for field in d.kinematics.fields}
-    for field in set(unknowns) - {"N", "m"}:
-        cells, nodes, components = path.states[0][field].shape
-        unknowns[field] = (cells * (nodes - 1) + len(d.elements)) * components
     return Result(
         scene=problem.scene,
         t=np.array(path.t),
@@ -186,6 +218,6 @@ def record(
         log=tuple(path.log),
         energy={"strain": np.array(path.energy)},
         statistics=statistics,
-        formulation=Formulation("continuum", d.kinematics.name, unknowns, problem.terms, notes),
+        formulation=Formulation("continuum", d.kinematics.name, unknowns(d, path.states[-1]), problem.terms, notes),
         state=path.states[-1],
     )

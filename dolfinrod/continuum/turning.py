@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Turning"]
+__all__ = ["NoTurning", "Turning"]
 
 
 class Turning:
@@ -83,3 +83,26 @@ class Turning:
 
     def _momentum(self, q: Array, bend: float) -> Array:
         return momentum(self._kin, self._J, self._q_0, q, self._h, bend)
+
+
+class NoTurning(Turning):
+    """Sections without rotary inertia: nothing to gain."""
+
+    def begin(self, q: Array, π: Array, h: float) -> None:
+        """Nothing to remember."""
+
+    def residual(self, q: Array) -> Array:
+        """None."""
+        return np.zeros_like(q)
+
+    def tangent(self, q: Array) -> Array:
+        """None."""
+        return np.zeros((*q.shape, q.shape[1]))
+
+    def mean(self, q: Array) -> Array:
+        """None."""
+        return np.zeros((len(q), self._kin.n_spin))
+
+    def left(self, q: Array, b: Array) -> Array:
+        """None."""
+        return self.mean(q)

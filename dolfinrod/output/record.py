@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import platform
 import re
 from dataclasses import asdict
-from importlib import metadata
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -15,6 +13,7 @@ from dolfinrod.output.arrays import write_arrays
 from dolfinrod.output.table import write_table
 from dolfinrod.output.vtk import write_series
 from dolfinrod.scene import SceneError, toml
+from dolfinrod.versions import versions
 
 if TYPE_CHECKING:
     from dolfinrod.result import NotConverged, Result
@@ -25,20 +24,6 @@ FORMAT = "dolfinrod result 1"
 RECORD, SCENE, STATE = "result.json", "scene.toml", "state.npz"
 # Names that a result gives to files, and so may take away again.
 OURS = re.compile(r"rod-\d+\.csv|rods-\d+\.vtu|rods\.pvd|scene\.toml|state\.npz")
-PACKAGES = (
-    "dolfinrod",
-    "numpy",
-    "scipy",
-    "fenics-dolfinx",
-    "fenics-ufl",
-    "fenics-ffcx",
-    "fenics-basix",
-    "petsc4py",
-    "mpi4py",
-    "pint",
-    "meshio",
-    "matplotlib",
-)
 
 
 def write(result: Result, folder: Path, *, failure: NotConverged | None = None) -> None:
@@ -74,17 +59,6 @@ def write(result: Result, folder: Path, *, failure: NotConverged | None = None) 
 def rod_table(k: int) -> str:
     """File name of the table of rod k."""
     return f"rod-{k}.csv"
-
-
-def versions() -> dict[str, str]:
-    """What computed the result: Python and the packages that are installed, each with its version."""
-    found = {"python": platform.python_version()}
-    for package in PACKAGES:
-        try:
-            found[package] = metadata.version(package)
-        except metadata.PackageNotFoundError:
-            continue
-    return found
 
 
 def _write_scene(result: Result, folder: Path) -> dict[str, Any]:

@@ -53,12 +53,14 @@ class ImplicitEuler:
 
 @dataclass(frozen=True)
 class Midpoint:
-    """Variational midpoint rule: second order, linear and angular momentum kept to round-off, energy bounded.
+    """Midpoint rule with mean strains: second order, linear and angular momentum kept to round-off.
 
-    The forces act at the mean of the states before and after the step. The rule is symplectic: it dissipates nothing,
-    the energy swings about its value by O(Δt²) and does not drift.
+    The forces act at the mean of the states before and after the step, with resultants of the mean of their strains, so
+    that a rod which only turns carries none, however stiff. Nothing is damped on purpose: the energy swings about its
+    value by O(Δt²) as long as the steps resolve the motion.
 
-    Source: Marsden & West, Acta Numerica 10, 2001 (variational integrators).
+    Source: Simo, Tarnow & Doblare, Int. J. Numer. Methods Eng. 38, 1995 (mean strains); Marsden & West, Acta Numerica
+    10, 2001 (inertia from a discrete action).
     """
 
 

@@ -187,13 +187,16 @@ def test_wind_bends_a_cantilever_the_same_in_any_pose(scheme):
     np.testing.assert_allclose(tip(SKEW), blown, rtol=0, atol=1e-10)
 
 
-@pytest.mark.parametrize("tol", [1e-4, 1e-6])
-def test_steps_of_free_length_follow_the_tolerance(tol):
-    """A hundredth of the tolerance is a hundredth of the error, within a factor of ten; few steps do."""
+def test_steps_of_free_length_follow_the_tolerance():
+    """The error of a step is h³ and that of a run h², so a hundredth of the one is 100^⅔ of the other; few steps do."""
     tip = np.array([0.9063091847993885, 0.34982239512781893])
-    motion = dr.Dynamic(t_end=0.4, tol=tol, scheme=dr.Midpoint(), output=0.4)
-    result = dr.solve(pushed(FLAT, motion), kinematics=dr.Planar((0, 0, 1)), elements=6, degree=4)
-    assert np.abs(FLAT.back(result.tip)[:2] - tip).max() <= 10.0 * tol
+    errors = []
+    for tol in (1e-4, 1e-6):
+        motion = dr.Dynamic(t_end=0.4, tol=tol, scheme=dr.Midpoint(), output=0.4)
+        result = dr.solve(pushed(FLAT, motion), kinematics=dr.Planar((0, 0, 1)), elements=6, degree=4)
+        errors.append(np.abs(FLAT.back(result.tip)[:2] - tip).max())
+    assert errors[0] <= 10.0 * 1e-4
+    assert errors[0] / errors[1] == pytest.approx(100.0 ** (2.0 / 3.0), rel=0.3)
     assert len(result.log) <= 100
 
 
@@ -204,23 +207,5 @@ def test_an_interrupted_run_keeps_what_it_reached():
 
     with pytest.raises(dr.NotConverged, match="interrupted by the user") as caught:
         dr.solve(thrown(dr.Dynamic(t_end=0.2, dt=0.01)), progress=stop, **MESH)
-    assert caught.value.result.t[-1] == pytest.approx(0.05)
+    assert caught.value.result.t[-1] == pytest.approx(0.06)
     assert not caught.value.result.converged
-
-
-@pytest.mark.parametrize(
-    ("scene", "words"),
-    [
-        (
-            dr.Scene(
-                [FLAT.straight(dr.Section(EA=1.0, GA=1.0, GJ=1.0, EI=1.0, rhoA=1.0, rhoI=(1, 1, 1), damping=0.1))],
-                motion=dr.Dynamic(t_end=1.0, dt=0.1),
-            ),
-            "section.damping must be 0 s",
-        ),
-    ],
-    ids=["damping"],
-)
-def test_what_is_not_there_yet_is_refused(scene, words):
-    with pytest.raises(dr.SceneError, match=words):
-        dr.solve(scene, **MESH)

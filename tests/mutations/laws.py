@@ -10,6 +10,7 @@ import numpy as np
 
 import dolfinrod as dr
 from tests.mutations import measures as by
+from tests.mutations import motions as moving
 from tests.mutations.measures import Solve
 from tests.mutations.scenes import CURVED, TWISTED, loaded_in_a_plane, loaded_in_every_way
 from tests.scenes import KIRCHHOFF, SKEW, followed
@@ -86,4 +87,13 @@ LAWS = {
     ),
     "case rollup-0.5": Law("the same", partial(by.error, rollup.rolled(0.5)), 3e-3),
     "case bend45-300-kirchhoff": Law("the same", partial(by.error, bend45.bend(300.0, kirchhoff=True)), 3e-3),
+    "free top": Law("a free rod turns as Euler's equations say, K7", partial(moving.top, moving.EULER), 5e-3),
+    "free top by midpoint": Law("the same", partial(moving.top, moving.MIDPOINT), 5e-3),
+    "spun up": Law("R J Rᵀ ω = M t in mean while a free rod has hardly turned", moving.spun_up, 5e-3),
+    "energy of a free top": Law("backward Euler adds none", moving.energy_gained, 0.0),
+    "moment of momentum": Law("a free rod keeps it by the midpoint rule", moving.moment_of_momentum, 1e-9),
+    "fall": Law("every point of a free rod falls by ½ g t (t + Δt)", partial(moving.fall, moving.EULER), 1e-9),
+    "fall by midpoint": Law("the same by ½ g t²", partial(moving.fall, moving.MIDPOINT), 1e-9),
+    "terminal speed": Law("a level fibre falls through air at 0.08695 m/s", moving.terminal_speed, 1e-4),
+    "settled": Law("a damped bar comes to rest at u = F L/EA", moving.settled, 1e-9),
 }

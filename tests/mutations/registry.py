@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from tests.mutations import continuum_mutations, discrete_mutations, form_mutations
+from tests.mutations import continuum_mutations, discrete_mutations, form_mutations, motion_mutations
 
 __all__ = ["MUTATIONS", "mutations"]
 
-MUTATIONS = (*discrete_mutations.MUTATIONS, *continuum_mutations.MUTATIONS, *form_mutations.MUTATIONS)
+MUTATIONS = (
+    *discrete_mutations.MUTATIONS,
+    *continuum_mutations.MUTATIONS,
+    *form_mutations.MUTATIONS,
+    *motion_mutations.MUTATIONS,
+)
 
 
 def mutations() -> list[tuple[str, str, str]]:

@@ -1,0 +1,113 @@
+"""Motions and equilibrium paths in the arrays of a checkpoint, and back."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.checkpoint import columns, rows
+from dolfinrod.continuum.restart import moving_state, shapes, take_up
+from dolfinrod.continuum.stepping import Path
+from dolfinrod.continuum.trajectory import Mark
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from dolfinrod.checkpoint import Kept
+    from dolfinrod.continuum.march import March
+    from dolfinrod.continuum.readout import State
+
+    Arrays = dict[str, NDArray[np.float64]]
+
+__all__ = ["motion_of", "path_of", "resume_motion", "resumed_path"]
+
+
+def motion_of(march: March, seconds: float) -> Arrays:
+    """All that a motion goes on from, and all that is stored of it.
+
+    Args:
+        march: Its problem is at its mark.
+        seconds: Spent on it so far, by earlier runs too [s].
+
+    Returns:
+        "group/name" → values, on every rank.
+    """
+    mark, trajectory = march.mark, march.trajectory
+    factorizations = trajectory.factorizations + march.newton.factorizations
+    arrays = _work(iterations=trajectory.iterations, factorizations=factorizations, seconds=seconds)
+    arrays |= {f"state/{name}": values for name, values in moving_state(march).items()}
+    arrays |= {f"now/{name}": np.array(value) for name, value in mark.energy.items()}
+    arrays |= {f"ledger/{name}": np.array([row[name] for row in march.ledger.rows]) for name in mark.energy}
+    return arrays | _stored(trajectory.t, trajectory.states) | columns(trajectory.log)
+
+
+def resume_motion(march: March, kept: Kept) -> None:
+    """Take up a motion.
+
+    Args:
+        march: Newly made.
+        kept: From `motion_of`.
+
+    Raises:
+        SceneError: It does not fit.
+    """
+    first, added = shapes(march)
+    shape = first | added if "state/a" in kept.arrays else first
+    state = {name: kept.take(f"state/{name}", of) for name, of in shape.items()}
+    trajectory = march.trajectory
+    trajectory.t, trajectory.states = _states(kept, march.state())
+    n = len(trajectory.t)
+    ledger = {name: kept.take(f"ledger/{name}", (n,)) for name in march.mark.energy}
+    march.ledger.rows[:] = [{name: float(values[k]) for name, values in ledger.items()} for k in range(n)]
+    trajectory.log, trajectory.iterations = rows(kept), kept.count("work/iterations")
+    trajectory.factorizations, trajectory.seconds = kept.count("work/factorizations"), kept.number("work/seconds")
+    energy = {name: kept.number(f"now/{name}") for name in march.mark.energy}
+    count = n, len(trajectory.log), trajectory.iterations
+    take_up(march, state, Mark(kept.t, march.mark.x, march.mark.motion, float(state["length"]), energy, *count))
+
+
+def path_of(path: Path) -> Arrays:
+    """All that is kept of an equilibrium path, as far as its log goes."""
+    n = len(path.log) + 1
+    arrays = _work(iterations=path.iterations, seconds=path.seconds_stability)
+    return (
+        arrays | {"ledger/strain": np.array(path.energy[:n])} | _stored(path.t[:n], path.states[:n]) | columns(path.log)
+    )
+
+
+def resumed_path(begun: Path, kept: Kept) -> Path:
+    """The path that `path_of` kept.
+
+    Args:
+        begun: The same path when it began, for its shapes.
+        kept: What there is of it.
+
+    Raises:
+        SceneError: It does not fit.
+    """
+    t, states = _states(kept, begun.states[0])
+    log = rows(kept)
+    energy = kept.take("ledger/strain", (len(log) + 1,)).tolist()
+    kept.take("stored/t", (len(log) + 1,))
+    stable = log[-1].stable if log else begun.stable
+    return Path(t, states, energy, log, kept.count("work/iterations"), stable, kept.number("work/seconds"))
+
+
+def _work(**numbers: float) -> Arrays:
+    return {f"work/{name}": np.array(float(value)) for name, value in numbers.items()}
+
+
+def _stored(t: Sequence[float], states: Sequence[State]) -> Arrays:
+    """States as one array a field."""
+    fields = {f"stored/{name}": np.stack([state[name] for state in states]) for name in states[0]}
+    return fields | {"stored/t": np.array(t)}
+
+
+def _states(kept: Kept, like: Mapping[str, NDArray[np.float64]]) -> tuple[list[float], list[State]]:
+    """Times and states back from such arrays."""
+    times = kept.times("stored/t").tolist()
+    fields = {name: kept.take(f"stored/{name}", (len(times), *values.shape)) for name, values in like.items()}
+    return times, [{name: values[k] for name, values in fields.items()} for k in range(len(times))]

@@ -1,0 +1,116 @@
+"""The state of a motion in arrays that know no ranks, from which it goes on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dolfinrod.checkpoint import goes_on
+from dolfinrod.continuum import backend
+from dolfinrod.continuum.motion import Motion
+from dolfinrod.continuum.trajectory import Mark
+from dolfinrod.scene import SceneError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.march import March
+    from dolfinrod.continuum.readout import State
+    from dolfinrod.result import Result
+    from dolfinrod.scene import Scene
+
+    Array = NDArray[np.float64]
+
+__all__ = ["follow_on", "moving_state", "shapes", "take_up"]
+
+
+def moving_state(march: March) -> State:
+    """The state that a march goes on from, gathered on every rank.
+
+    Returns:
+        Fields and velocities as in `Trajectory.states`; momenta "pi"; length of the next step "length" [s]; where there
+        has been a step, its mean acceleration "a" and its length "h" in units of time.
+    """
+    problem, readout, motion = march.problem, march.readout, march.mark.motion
+    d, lumped = problem.discretization, problem.lumped
+    r, q = d.dofs["r"], d.dofs["q"][:, :, : problem.kinematics.n_spin]
+    carrier = backend.function(d.space)
+    values = carrier.x.array
+
+    def gathered(nodes: NDArray[np.int32], own: Array, cells: NDArray[np.int32]) -> Array:
+        values[nodes] = own
+        carrier.x.scatter_forward()
+        return readout.gather(values=values[cells])["values"]
+
+    state = march.state()
+    state |= {"pi": gathered(lumped.q[:, : q.shape[2]], motion.π, q), "length": np.array(march.mark.length)}
+    if motion.a is not None:
+        state |= {"a": gathered(lumped.r, motion.a, r), "h": np.array(motion.h)}
+    return state
+
+
+def shapes(march: March) -> tuple[dict[str, tuple[int, ...]], dict[str, tuple[int, ...]]]:
+    """Shapes of what `moving_state` gives before any step, and of what is added by one."""
+    first = {name: values.shape for name, values in moving_state(march).items()}
+    return first, {"a": first["v"], "h": ()}
+
+
+def take_up(march: March, state: Mapping[str, Array], mark: Mark) -> None:
+    """Make a gathered state the one that a march goes on from.
+
+    Args:
+        march: Its trajectory is that up to there.
+        state: From `moving_state` on any number of ranks.
+        mark: All else of the march.
+    """
+    problem = march.problem
+    d, lumped = problem.discretization, problem.lumped
+    x = np.zeros_like(problem.x)
+    for field, dofs in d.dofs.items():
+        x[dofs] = state[field][d.cell]
+
+    def own(name: str, cells: NDArray[np.int32], nodes: NDArray[np.int32]) -> Array:
+        values = np.zeros_like(x)
+        values[cells] = state[name][d.cell]
+        return np.asarray(values[nodes])
+
+    n_spin = problem.kinematics.n_spin
+    v, π = own("v", d.dofs["r"], lumped.r), own("pi", d.dofs["q"][:, :, :n_spin], lumped.q[:, :n_spin])
+    motion = Motion(v, π)
+    if "a" in state:
+        motion = Motion(v, π, own("a", d.dofs["r"], lumped.r), float(state["h"]))
+    march.take_up(replace(mark, x=x, motion=motion))
+
+
+def follow_on(march: March, start: Result, scene: Scene) -> None:
+    """Go on where a result of the same motion ended.
+
+    Args:
+        march: Newly made.
+        start: The result.
+        scene: What is posed.
+
+    Raises:
+        SceneError: It is of another motion or model, or on another mesh.
+    """
+    if start.formulation.model != "continuum" or not goes_on(start.scene, scene):
+        raise SceneError(
+            "must be None or a result of this very motion, which goes on from there; only steps, output and t_end may "
+            "be others, and t_end not where a prescribed motion grows until then",
+            field="start",
+        )
+    t, state, motion = float(start.t[-1]), start.state, scene.motion
+    if t > motion.t_end:
+        raise SceneError(f"must end before t_end = {motion.t_end} s, got {t} s", field="start")
+    first, added = shapes(march)
+    found = {name: values.shape for name, values in state.items()}
+    if found not in (first, first | added):
+        raise SceneError("start must be a result on the same elements, degree and kinematics")
+    unit = march.problem.placement.moment
+    energy = {name: float(start.energy[name][-1]) / unit for name in march.mark.energy}
+    mark = replace(march.mark, t=t, energy=energy)
+    take_up(march, state, mark if march.even else replace(mark, length=float(state["length"])))

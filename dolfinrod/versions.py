@@ -1,0 +1,34 @@
+"""What computes: Python and the packages that are installed, each with its version."""
+
+from __future__ import annotations
+
+import platform
+from importlib import metadata
+
+__all__ = ["versions"]
+
+PACKAGES = (
+    "dolfinrod",
+    "numpy",
+    "scipy",
+    "fenics-dolfinx",
+    "fenics-ufl",
+    "fenics-ffcx",
+    "fenics-basix",
+    "petsc4py",
+    "mpi4py",
+    "pint",
+    "meshio",
+    "matplotlib",
+)
+
+
+def versions() -> dict[str, str]:
+    """Versions by name; packages that are not installed are left out."""
+    found = {"python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            found[package] = metadata.version(package)
+        except metadata.PackageNotFoundError:
+            continue
+    return found
