@@ -180,7 +180,8 @@ def _measured(case: Vibration, stepper: Stepper) -> list[float]:
     for advance in ADVANCES:
         dt = advance / case.reference.value
         steps = round(case.duration / advance)
-        motion = stepper.motion(steps * dt, steps, None)
+        # Stored at equal times, also where a step was cut.
+        motion = stepper.motion(steps * dt, steps, dt)
         result = stepper.solve(replace(case.scene, motion=motion, velocities=case.start))
         found.append(frequency(case.read(result), dt))
     return found

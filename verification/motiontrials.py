@@ -18,10 +18,10 @@ __all__ = ["DRIFT", "MOTION", "PACE", "listing", "names", "units"]
 MOTION, DRIFT, PACE = "motion", "motion-momenta", "motion-pace"
 # Seconds of the free flight and its numbers of steps, in full and in a quick run.
 FLIGHT, STEPS = 10.0, (2_500, 10_000)
-QUICK_FLIGHT, QUICK_STEPS = 1.0, (500, 1_000)
+QUICK_FLIGHT, QUICK_STEPS = 1.0, (250, 1_000)
 # Numbers of steps taken by schemes that lose energy: the first shows it.
 LOSING = 1
-FIBRE_STEPS = 100
+FIBRE_STEPS = 300
 PACED, QUICK_PACED = 50, 5
 
 Key = tuple[str | int | float, ...]

@@ -76,8 +76,7 @@ def test_limits_and_orders_of_cheap_cases(name):
 
 def test_the_pulse_to_a_millionth_and_with_second_order():
     case = BY_NAME["motion-pulse-cantilever"]
-    run = replace(by_model(case.name, "continuum midpoint"), steps=(20, 40, 80))
-    study = motionstudy(case, run)
+    study = motionstudy(case, by_model(case.name, "continuum midpoint"))
     assert study.holds
     assert study.rest <= 1e-6
     assert study.order == pytest.approx(2.0, abs=0.1)

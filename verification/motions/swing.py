@@ -118,7 +118,7 @@ CASES = (
         scale=1.0,
         read=end,
         runs=(
-            Run(MIDPOINT, (200, 400, 800), limit=1e-4),
+            Run(MIDPOINT, (400, 800, 1600), limit=1e-4),
             Run(EULER, (200, 400, 800), ordered=False),
             Run(DiscreteStepper(20), (200, 400, 800), ordered=False),
         ),

@@ -37,10 +37,10 @@ RATIOS = {
 }
 
 
-def continuum(kinematics: Planar | Spatial, *, quick: bool = False) -> tuple[Vibrating, ...]:
+def continuum(kinematics: Planar | Spatial) -> tuple[Vibrating, ...]:
     """The continuum model by either scheme; its spectrum integrates the masses exactly, its motion in the nodes."""
     schemes = zip(*(both_schemes(n, DEGREE, kinematics) for n in CELLS), strict=True)
-    return tuple(Vibrating(s, CELLS, EigenContinuum(DEGREE), 2 * DEGREE, same=False, quick=quick) for s in schemes)
+    return tuple(Vibrating(s, CELLS, EigenContinuum(DEGREE), 2 * DEGREE, same=False) for s in schemes)
 
 
 def discrete(ratios: tuple[float, ...] = (), *, quick: bool = False) -> tuple[Vibrating, ...]:
@@ -171,7 +171,7 @@ def thin(n: int, mode: int) -> Vibration:
 def thick(ends: str, supports: tuple[Support, ...], mode: int, shape: Shape) -> Vibration:
     """Timoshenko's beam, which only the continuum model knows; its sections do not turn at first."""
     reference = scalar(f"K2-Timo-{ends}-s10-nu0.3", "omega_1")
-    models = continuum(PLANE, quick=ends == "cantilever")
+    models = continuum(PLANE)
     return vibration(f"thick-{ends}", f"K2, Timoshenko beam, {ends}", THICK, supports, mode, reference, shape, models)
 
 

@@ -58,7 +58,7 @@ class Own:
 
 def midpoint(assumes: str, meshes: tuple[tuple[int, int, int], ...]) -> Own:
     """The continuum model in equal steps: elements, degree, steps a second."""
-    method = "variational midpoint rule, second order"
+    method = "midpoint rule with mean strains, second order"
     taker = Taker("continuum, midpoint", True, True, method, "mixed elements × degree", assumes)
     return Own(taker, tuple(Setting(ContinuumStepper(Midpoint(), n, k), steps) for n, k, steps in meshes))
 
@@ -73,7 +73,7 @@ OURS = (
             "continuum, midpoint, error-controlled",
             True,
             True,
-            "variational midpoint rule, steps by their error",
+            "midpoint rule with mean strains, steps by their error",
             "mixed elements × degree",
             "sheared",
         ),

@@ -62,6 +62,6 @@ def _row(r: MotionRow, title: str) -> Row:
 
 def verdict_on_motions(found: Sequence[MotionRow]) -> str:
     """How many rows there are of each kind, in a sentence."""
-    kinds = ("finished", "damped", "swings", "refused", "crawls", "WRONG")
+    kinds = ("finished", "damped", "swings", "coarse", "refused", "crawls", "WRONG")
     parts = [f"{sum(r.outcome == kind for r in found)} {kind.lower()}" for kind in kinds]
     return f"{len(found)} rows: {', '.join(parts)}."

@@ -27,7 +27,7 @@ WORDS = (
 NUMBER = "number"
 # Class of the style sheet for the line of an integrator.
 KINDS = {
-    "continuum, variational midpoint": "p2",
+    "continuum, midpoint with mean strains": "p2",
     "continuum, implicit Euler": "p1",
     "discrete, implicit Euler": "chord",
     "discrete, rotations added": "paper",

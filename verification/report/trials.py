@@ -57,8 +57,9 @@ WORDS = {
     "hard-motion": "Motions that schemes stumble over, default settings, steps as given, resolved or not. The ledger "
     "judges without a reference: damped means that the steps took more than 1 % of all energy that went in, swings "
     "that they had made more than 1 % at some time. Wrong: half of that energy or more made by the steps (any at all "
-    "by implicit Euler), a ledger that does not close to 1e-8, or another end than a finer solve with a clean ledger. "
-    "Crawls: stopped, more attempts failed than steps were asked for.",
+    "by implicit Euler), a ledger that does not close to 1e-8, or another end than a finer solve with a clean ledger, "
+    "in shorter steps too; coarse: such an end, nearer to it in steps of half the length. Crawls: stopped, more "
+    "attempts failed than steps were asked for.",
     **motion.WORDS,
     "tops": rigid.WORDS,
 }
