@@ -204,3 +204,26 @@ def test_help_sets_nothing_up_and_an_unknown_command_is_refused(machine):
     assert unknown.returncode == 1
     assert unknown.stderr.splitlines()[-1] == "run: unknown command: tset"
     assert machine.calls == []
+
+
+def test_peers_makes_their_environment_once(machine):
+    requirements = machine.path / "verification" / "peers" / "requirements.txt"
+    requirements.parent.mkdir(parents=True)
+    requirements.write_text("# pinned\nexudyn == 1\n")
+    python = machine.path / ".venv-peers" / "bin" / "python"
+    script = (machine.path / "run").read_text()
+    (machine.path / "run").write_text(script.replace("/usr/bin/python3 -m venv --clear", "make-venv"))
+    machine.fake("make-venv", 'echo "$1" >>made')
+    python.parent.mkdir(parents=True)
+    machine.write(python, 'echo "$*" >>made')
+    first, second = machine.run("peers"), machine.run("peers")
+    assert first.stdout == second.stdout == "exudyn == 1\n"
+    assert "making .venv-peers" in first.stderr
+    assert "making" not in second.stderr
+    made, installed = (machine.path / "made").read_text().splitlines()
+    assert made == str(machine.path / ".venv-peers")
+    assert installed.endswith("-r verification/peers/requirements.txt")
+    requirements.write_text("exudyn == 2\n")
+    machine.write(python, "echo no such version >&2; exit 1")
+    assert "no such version" in complaint(machine.run("peers"))
+    assert "making .venv-peers" in machine.run("peers").stderr

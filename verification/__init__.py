@@ -14,9 +14,11 @@
 `laws`          what holds whatever the numbers are: `violations` of it, on `lawscenes`
 `onestep`       whole loads in one step: Newton iterations against limits
 `speed`         milliseconds against limits and against other people's solvers
+`peers`         other people's solvers and our models on one problem, live; `./run peers` installs them
 `eigencase`     a critical load or a frequency as a case; `eigencases`, a file a family; `eigenmodels`, who is asked
 `stability`     critical loads and frequencies against references, verdicts below and above
 `hardcase`      what solvers stumble over, with a check; `hardcases`, such scenes; `hard`, how they end
+`rigid`         rigid tops through each rotation integrator; `rigidbodies`, both of them; `toptrials`, as units
 `robustness`    largest load in one step; fewest steps of `benchmarks`
 `checks`        errors, orders and digits that must hold
 `shape`         what is drawn

@@ -74,6 +74,7 @@ def verify(options: Namespace) -> int:
 def listed(options: Namespace) -> int:
     """Print the cases by family."""
     from verification.cases import CASES
+    from verification.peers import race
     from verification.plan import LAWS, families, selected
     from verification.statement import family_title
     from verification.trials import listing
@@ -87,7 +88,7 @@ def listed(options: Namespace) -> int:
             print(f"  {case.name:<34}{case.title}")
     if LAWS in names:
         print(f"{LAWS}: what holds whatever the numbers are")
-    for name, words in listing(tuple(names)):
+    for name, words in (*listing(tuple(names)), *race.listing(tuple(names))):
         print(f"{name:<36}{words}" if name.startswith(" ") else f"{name}: {words}")
     return HOLDS
 

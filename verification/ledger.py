@@ -21,12 +21,21 @@ from typing import Any, get_args
 import numpy as np
 
 from verification.checks import Check
+from verification.drift import DriftStudy
+from verification.explicitlimit import ExplicitLimit
+from verification.frequency import FrequencyStudy
 from verification.hard import HardRow
+from verification.hardmotion import MotionRow
 from verification.laws import LawRow
 from verification.machine import Machine
+from verification.maps import Cell
+from verification.motion import MotionRecord, MotionStudy
 from verification.onestep import OneStep
 from verification.order import Order
+from verification.pace import Pace, PaperFibre
+from verification.peers.contest import Attempt, Contender, Measured, Taker
 from verification.references import Peer
+from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
 from verification.shape import Shape
 from verification.speed import Speed
@@ -35,8 +44,11 @@ from verification.workprecision import Record, Study, Timing
 
 __all__ = ["Ledger", "Unit", "source_hash"]
 
-Row = Bracket | Check | EigenStudy | HardRow | LawRow | OneStep | OneStepLoads | Shape | Speed | Steps | Study
-RECORDS: dict[str, Any] = {kind.__name__: kind for kind in (*get_args(Row), Order, Peer, Record, Timing)}
+Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
+Moved = DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | TopStudy
+Row = Trial | Moved | Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study
+PARTS = (Attempt, Measured, MotionRecord, Order, Peer, Record, Taker, Timing)
+RECORDS: dict[str, Any] = {kind.__name__: kind for kind in (*get_args(Row), *PARTS)}
 PACKAGES = ("dolfinrod", "discrete", "verification")
 NAME = re.compile("[0-9a-f]{24}")
 # What numbers can depend on; the page is written anew every time.
@@ -49,7 +61,8 @@ class Unit:
 
     Args:
         topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
-            "largest" or "fewest".
+            "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
+            "frequency", "drift", "pace", "paper fibre" or "rigid".
         words: What is solved, for people.
         parameters: What sets it apart from others of its topic; strings and numbers.
         work: Solves it; returns a row, or rows, for the report.

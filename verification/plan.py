@@ -13,6 +13,7 @@ from verification import cases, checks, laws, onestep, speed, trials
 from verification.case import Case
 from verification.ledger import Unit
 from verification.models import BOTH, Continuum, Discrete, Model, natural
+from verification.peers import race
 from verification.shape import shapes
 from verification.workprecision import study
 
@@ -73,7 +74,7 @@ def headlines() -> tuple[str, ...]:
 
 def known() -> tuple[str, ...]:
     """Whatever may be asked for by name."""
-    return (*families(), LAWS, *(case.name for case in cases.CASES), *trials.names())
+    return (*families(), LAWS, *(case.name for case in cases.CASES), *trials.names(), race.PEERS)
 
 
 def selected(names: Iterable[str]) -> tuple[str, ...]:
@@ -118,6 +119,7 @@ def plan(names: tuple[str, ...], *, quick: bool) -> tuple[Unit, ...]:
         *_limits(chosen, quick),
         *_laws(names),
         *trials.units(names, quick=quick),
+        *race.units(names, quick=quick),
     )
 
 

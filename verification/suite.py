@@ -9,12 +9,21 @@ from typing import TYPE_CHECKING, Any
 from verification.cases import CASES
 from verification.checks import Check, digit_checks, order_checks
 from verification.crosscheck import CrossCheck, crosschecks
+from verification.drift import DriftStudy
+from verification.explicitlimit import ExplicitLimit
+from verification.frequency import FrequencyStudy
 from verification.hard import HardRow, Share, shares
+from verification.hardmotion import MotionRow
 from verification.laws import LawRow
 from verification.machine import Machine
+from verification.maps import Cell
+from verification.motion import MotionStudy
 from verification.onestep import OneStep
+from verification.pace import Pace, PaperFibre
+from verification.peers.contest import Contender
 from verification.plan import headlines
 from verification.reach import Reach, reaches
+from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
 from verification.speed import Speed
 from verification.stability import Bracket, EigenStudy
@@ -28,7 +37,24 @@ if TYPE_CHECKING:
 
 __all__ = ["Missed", "Report", "report", "work_off"]
 
-Missed = Check | OneStep | CrossCheck | LawRow | EigenStudy | Bracket | HardRow | Share | OneStepLoads | Steps
+Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
+Moved = DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | TopStudy
+Missed = Trial | Moved | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow
+# Fields of the report that are the rows of a topic, as they come.
+AS_FOUND = {
+    "one_step": "one step",
+    "speeds": "speed",
+    "laws": "law",
+    "critical": "critical",
+    "brackets": "bracket",
+    "largest": "largest",
+    "fewest": "fewest",
+    "shapes": "shape",
+    "limits": "explicit limit",
+    "maps": "map",
+    "motions": "hard motion",
+    "tops": "rigid",
+}
 
 
 @dataclass(frozen=True)
@@ -54,6 +80,16 @@ class Report:
         fewest: Load steps taken by default.
         reaches: Quickest measured runs to given errors.
         shapes: To draw.
+        limits: Longest stable steps of an explicit scheme.
+        maps: Outcome over step, length of the elements and rise of the load.
+        motions: What schemes in time stumble over.
+        moved: Motions in ever smaller steps.
+        frequencies: Read off small vibrations in time.
+        drifts: What a free rod keeps.
+        fibres: The paper's fibre in its own steps.
+        paces: Milliseconds a step.
+        tops: Rigid bodies by each rotation integrator.
+        contenders: Other people's solvers and our models on one problem.
     """
 
     machine: Machine
@@ -74,6 +110,16 @@ class Report:
     fewest: tuple[Steps, ...]
     reaches: tuple[Reach, ...]
     shapes: tuple[Shape, ...] = field(default=(), repr=False)
+    limits: tuple[ExplicitLimit, ...] = ()
+    maps: tuple[Cell, ...] = ()
+    motions: tuple[MotionRow, ...] = ()
+    moved: tuple[MotionStudy, ...] = ()
+    frequencies: tuple[FrequencyStudy, ...] = ()
+    drifts: tuple[DriftStudy, ...] = ()
+    fibres: tuple[PaperFibre, ...] = ()
+    paces: tuple[Pace, ...] = ()
+    contenders: tuple[Contender, ...] = ()
+    tops: tuple[TopStudy, ...] = ()
 
     def compile_ms(self, model: str) -> float | None:
         """What a model spent on making or loading its forms when it was first used [ms]."""
@@ -90,8 +136,10 @@ class Report:
         """Numbers beyond their limits, of those that do not depend on the machine."""
         missed: list[Missed] = [row for row in self.checks if row.missed]
         kinds = (self.one_step, self.crosschecks, self.laws, self.critical, self.brackets)
-        for rows in (*kinds, self.hard, self.shares, self.largest):
+        for rows in (*kinds, self.hard, self.shares, self.largest, self.limits, self.maps, self.motions):
             missed += [row for row in rows if not row.holds]
+        moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
+        missed += [row for row in moved if not row.holds]
         missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
 
@@ -149,17 +197,16 @@ def report(rows: dict[str, Any], names: Iterable[str], machine: Machine, *, quic
         statements=tuple(statement(case) for case in CASES if asked & {case.name, case.family}),
         headlines=headlines(),
         checks=(*rows.get("limit", ()), *order_checks(deep), *digit_checks(studies)),
-        one_step=rows.get("one step", ()),
-        speeds=rows.get("speed", ()),
         studies=studies,
         crosschecks=crosschecks(studies, {case.name: case.length for case in CASES}),
-        laws=rows.get("law", ()),
-        critical=rows.get("critical", ()),
-        brackets=rows.get("bracket", ()),
         hard=found,
         shares=shares(found),
-        largest=rows.get("largest", ()),
-        fewest=rows.get("fewest", ()),
         reaches=reaches(studies),
-        shapes=rows.get("shape", ()),
+        **{field: rows.get(topic, ()) for field, topic in AS_FOUND.items()},
+        moved=rows.get("motion", ()),
+        frequencies=rows.get("frequency", ()),
+        drifts=rows.get("drift", ()),
+        fibres=rows.get("paper fibre", ()),
+        paces=rows.get("pace", ()),
+        contenders=rows.get("peer", ()),
     )

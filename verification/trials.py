@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 from importlib import import_module
 
-from verification import eigencases, hardcases
+from verification import eigencases, hardcases, motiontrials, stepping, toptrials
 from verification.eigencase import Eigencase
 from verification.hard import hard, pairs
 from verification.hardcase import HardCase, Refined
@@ -30,6 +30,9 @@ def names() -> tuple[str, ...]:
         FEWEST,
         *(case.name for case in eigencases.CASES),
         *(hard_name(case) for case in hardcases.CASES),
+        *stepping.names(),
+        *motiontrials.names(),
+        *toptrials.names(),
     )
 
 
@@ -65,6 +68,9 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     for name, words in ((LARGEST, "largest load in one step"), (FEWEST, "fewest load steps")):
         if name in asked:
             yield name, words
+    yield from stepping.listing(asked)
+    yield from motiontrials.listing(asked)
+    yield from toptrials.listing(asked)
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -88,6 +94,9 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
         if benchmark.peer or not quick:
             words = f"Fewest steps: {benchmark.case.title}, {model.name}"
             yield Unit("fewest", words, (benchmark.case.name, model.name), work)
+    yield from stepping.units(asked, quick=quick)
+    yield from motiontrials.units(asked, quick=quick)
+    yield from toptrials.units(asked, quick=quick)
 
 
 def _critical(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:

@@ -6,7 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from verification.crosscheck import BAND
-from verification.report import sections, times, trials
+from verification.report import peers, sections, times, trials
 from verification.report.diagrams import against_time
 from verification.report.families import families, of_family, panel
 from verification.report.remarks import literal_remark
@@ -29,6 +29,7 @@ TITLES = {
     "orders": "Orders of convergence",
     **trials.TITLES,
     "speed": "Milliseconds beside other people's solvers",
+    **peers.TITLES,
     "cases": "The cases",
     "machine": "Machine",
 }
@@ -53,6 +54,7 @@ WORDS = {
     "speed": "Solve is the load stepping alone, by which solvers with a built model are timed; the whole call goes "
     "from scene to result. Compile is what a model spent once on making its forms, or on loading what an earlier run "
     "had made.",
+    **peers.WORDS,
     "cases": "To see: the discrete nodes (dots) lie on the continuum's line (solid), and both meet the reference's "
     "cross where that is a place; dashed grey is the rod stress free, strokes stand along d2. In the error diagrams, "
     "numbers are observed orders and the dotted line to such a number has the slope of theory; dashed lines are "
@@ -88,6 +90,8 @@ def contents(report: Report, tests: Path | None) -> dict[str, str]:
     parts |= trials.contents(report)
     if report.speeds:
         parts["speed"] = speed(report)
+    if report.contenders:
+        parts["peers"] = peers.contents(report.contenders)
     if report.statements:
         parts["cases"] = families(report)
     return {key: paragraph(key) + parts[key] for key in TITLES if key in parts}

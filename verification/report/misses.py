@@ -7,10 +7,18 @@ from typing import Any
 
 from verification.checks import Check
 from verification.crosscheck import BAND, CrossCheck
+from verification.drift import KEPT, DriftStudy
+from verification.explicitlimit import ExplicitLimit
+from verification.frequency import FrequencyStudy
 from verification.hard import HardRow, Share
+from verification.hardmotion import MotionRow
 from verification.laws import LawRow
+from verification.maps import Cell
+from verification.motion import MotionStudy
 from verification.onestep import OneStep
+from verification.pace import PaperFibre
 from verification.report.tables import figure, power, scientific
+from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
 from verification.stability import Bracket, EigenStudy
 
@@ -112,6 +120,64 @@ def _(row: Steps) -> str:
     ]
     taken = f"{row.steps} load step(s) and {row.iterations} iterations, error {scientific(row.error)}"
     return f"{row.title}: {row.model} on {row.mesh} elements took {taken}; {' and '.join(asked) or 'error too large'}"
+
+
+@sentence.register
+def _(row: ExplicitLimit) -> str:
+    found = f"longest stable step {scientific(row.measured, 3)} s instead of {scientific(row.matrices, 3)} s"
+    return f"Explicit limit, {row.wave}, elements of {1e3 * row.l:g} mm: {found}"
+
+
+@sentence.register
+def _(row: Cell) -> str:
+    load = f"load within {1e3 * row.rise:g} ms" if row.rise else "load at once"
+    place = f"{load}, steps of {row.dt:g} s on elements of {1e3 * row.l:g} mm"
+    bound = "" if row.limit is None else f", 2/ω_max = {scientific(row.limit, 3)} s"
+    return f"Stability map: {row.scheme}, {place}: {row.outcome}{bound}" + (f", {row.reason}" if row.reason else "")
+
+
+@sentence.register
+def _(row: MotionRow) -> str:
+    return f"{row.title}: {row.solver} {row.outcome.lower()}, {row.reason}"
+
+
+@sentence.register
+def _(row: MotionStudy) -> str:
+    failures = [r.failure for r in row.records if r.failure]
+    if failures:
+        return f"{row.title}: {row.model} on {row.mesh} could not take a step: {failures[0]}"
+    limit = "" if row.limit is None else f", at most {scientific(row.limit, 0)}"
+    order = f", order {power(row.order)} in the time step of {row.theory}" if row.ordered else ""
+    return f"{row.title}: {row.model} on {row.mesh} is {scientific(row.rest)} off{limit}{order}"
+
+
+@sentence.register
+def _(row: FrequencyStudy) -> str:
+    found = f"{figure(row.found[-1])} rad/s instead of {figure(row.reference)}"
+    beside = f"{scientific(row.apart)} beside the spectrum, order {power(row.order.observed)} of {row.order.theory}"
+    return f"{row.title}: {row.model} vibrates with {found}, {beside}"
+
+
+@sentence.register
+def _(row: DriftStudy) -> str:
+    changes = f"linear momentum by {scientific(max(row.linear))}, angular by {scientific(max(row.angular))}"
+    energy = f"energy with order {power(row.order.observed)} of {row.order.theory}"
+    return f"Free flight: {row.model} changes {changes}, {energy}; momenta at most {scientific(KEPT, 0)}"
+
+
+@sentence.register
+def _(row: PaperFibre) -> str:
+    apart, gap = scientific(max(row.apart)), scientific(max(row.open))
+    return f"The paper's fibre: models are {apart} apart, ledgers open by {gap}"
+
+
+@sentence.register
+def _(row: TopStudy) -> str:
+    orders = ", ".join(power(o.observed) for o in (row.spin_order, row.attitude_order, row.energy_order))
+    found = (
+        f"orders {orders} of {row.theory} in spin, attitude and energy, momentum off by {scientific(max(row.momentum))}"
+    )
+    return f"{row.title}: {row.integrator} has {found}, largest gain of energy {scientific(row.gain)}"
 
 
 def verdict(stable: bool | None) -> str:
