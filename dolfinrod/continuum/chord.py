@@ -24,6 +24,8 @@ SLOW = 0.03
 STALLED = 0.1
 # A new tangent costs about as much as this many iterations with an old one.
 DEAR = 2
+# First increment that an old tangent may find, in L, rad and forces over themselves.
+LARGEST = 1.0
 # Steps that differ by less than this part have the same tangent, but for terms of that size.
 SAME = 1e-3
 
@@ -74,18 +76,29 @@ class Chord(Newton):
             self._h = self.problem.h
             self._serves = True
 
+    def _limit(self, X: PETSc.Vec, Y: PETSc.Vec) -> bool:
+        """As in Newton's method; where an old tangent leads away, the step is not taken and a new one is made."""
+        before = self._size
+        super()._limit(X, Y)
+        if not self._is_fresh and self._size > min(before, LARGEST):
+            Y.array[:] = 0.0
+            self._size, self._next, self._serves = before, np.inf, False
+        return True
+
     def _expected(self, before: float, size: float) -> float:
-        """Next increment after these two, in the ratio of them, or smaller if the tangent is new."""
-        if not np.isfinite(before):
+        """Next increment after these two, in the ratio of them, which may be small by chance; or a smaller one."""
+        if not np.isfinite(before) or not before > 0.0:
             return np.inf
         ratio = size / before
         self._contracted = self._contracted or ratio <= SLOW
         self._stalls = ratio > STALLED and (self._is_fresh or self._contracted)
-        self._serves = self._is_fresh or ratio <= SLOW or self._stalls or size < TOLERANCE
-        return size * ratio
+        self._serves = self._is_fresh or ratio <= SLOW or size < TOLERANCE or self._ends
+        return size * max(ratio, size)
+
+    @property
+    def _ends(self) -> bool:
+        """Whether round-off is left: in stiff rods that of the positions is more than `TOLERANCE` of the forces."""
+        return self._stalls and (self._size < TOLERANCE or self._moved < NEGLIGIBLE)
 
     def _settled(self) -> bool:
-        """Also where round-off is left: in stiff rods that of the positions is more than `TOLERANCE` of the forces."""
-        if self._next < NEGLIGIBLE or (self._is_fresh and self._size < TOLERANCE):
-            return True
-        return self._stalls and (self._size < TOLERANCE or self._moved < NEGLIGIBLE)
+        return self._next < NEGLIGIBLE or (self._is_fresh and self._size < TOLERANCE) or self._ends

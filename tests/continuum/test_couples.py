@@ -41,3 +41,17 @@ def test_moments_of_turning_sections_converge(kinematics, scheme):
     assert abs(coarse[-1]) <= 1e-12
     assert np.abs(coarse - fine).max() <= 1e-5 * np.abs(fine).max()
     assert np.abs(medium - fine).max() <= np.abs(coarse - fine).max() / 4.0
+
+
+@pytest.mark.parametrize("rigid", [{"shear"}, {"shear", "extension"}], ids=["shear", "both"])
+@both_kinematics
+def test_rigid_strains_leave_the_moments_alone(kinematics, rigid):
+    """A bent rod whose shear is rigid: between midpoint steps only strains that it has get resultants of their own."""
+    section = dr.Section(EA=900.0, GA=400.0, GJ=0.7, EI=1.0, rhoA=1.0, rhoI=(2e-6, 1e-6, 1e-6), rigid=rigid)
+    motion = dr.Dynamic(1.0, 0.02, dr.Midpoint(), output=1.0)
+    weight = dr.Gravity((0.0, -3.0, 0.0), history=lambda t: float(np.sin(0.5 * np.pi * min(t, 1.0)) ** 4))
+    scene = dr.Scene([dr.Rod.straight(1.0, section)], [dr.Clamp("start")], [weight], motion=motion)
+    h = dr.solve(scene, elements=4, degree=3, kinematics=kinematics).rods[0]
+    assert abs(h.m[-1, -1, 2]) <= 1e-9
+    curvature = h.frames[-1, 1, 1, 0] - h.frames[-1, 0, 1, 0]
+    assert h.m[-1, 0, 2] == pytest.approx(curvature / (h.s[1] - h.s[0]), rel=0.15)
