@@ -77,7 +77,7 @@ OURS = (
             "mixed elements × degree",
             "sheared",
         ),
-        tuple(Setting(ContinuumStepper(Midpoint(), 2, 4), tol=tol) for tol in (5e-5, 1e-4, 1e-5)),
+        tuple(Setting(ContinuumStepper(Midpoint(), 2, 4), tol=tol) for tol in (1e-5, 2e-5, 5e-5)),
     ),
     Own(
         Taker("continuum, Euler", True, True, EULER, "mixed elements × degree", "sheared"),
