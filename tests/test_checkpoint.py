@@ -324,8 +324,9 @@ def test_a_file_of_the_other_model_mesh_or_plane_is_refused(tmp_path):
 
 @pytest.mark.serial
 def test_equal_functions_are_the_same_run(tmp_path):
-    DISCRETE.solve(waved(1.0), checkpoint=tmp_path / "run.h5")
-    DISCRETE.solve(waved(1.0), checkpoint=tmp_path / "run.h5", progress=never)
+    once = DISCRETE.solve(waved(1.0), checkpoint=tmp_path / "run.h5")
+    again = DISCRETE.solve(waved(1.0), checkpoint=tmp_path / "run.h5", progress=never)
+    assert_same(again, once, 0.0)
 
 
 @pytest.fixture(scope="module")

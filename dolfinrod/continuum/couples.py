@@ -56,7 +56,7 @@ class Couples:
         flat = self._q.reshape(-1, self._q.shape[2])
         spin = problem.kinematics.spin(problem.x[flat])
         put = np.einsum("nij,nj->ni", spin, b[flat]) / np.einsum("nij,nij->ni", spin, spin)
-        shared = self._share[:, :, None] * put.reshape(*self._q.shape[:2], -1)
+        shared = self._share[:, :, None] * put.reshape(*self._q.shape[:2], spin.shape[1])
         return np.asarray(self._smoothed @ shared)
 
 

@@ -47,7 +47,7 @@ def begin(problem: Moving) -> None:
     for velocity in scene.velocities:
         cells = np.arange(len(problem.rod)) if velocity.rod is None else np.flatnonzero(problem.rod == velocity.rod)
         at = place.to_space(problem.x[r[cells]]).reshape(-1, 3)
-        moved = velocity.at(at).reshape(len(cells), -1, 3) @ place.axes * (second / place.length)
+        moved = velocity.at(at).reshape(len(cells), r.shape[1], 3) @ place.axes * (second / place.length)
         v[r[cells]] += moved
         spin = np.asarray(velocity.omega) @ place.spin_axes * second
         ω[d.dofs["q"][cells][:, :, : len(spin)]] += spin
@@ -85,7 +85,7 @@ class March:
         self.newton, self.readout, self.trajectory, self._progress = newton, readout, trajectory, progress
         self.problem, self._times = problem, times
         self.ledger, self._predictor = Ledger(problem), Predictor(problem, 0.0)
-        self._couples = Couples(problem) if problem.lumped.J.any() else None
+        self._couples = Couples(problem) if problem.turns else None
         order = problem.scheme.order + 1
         if times.dt is None:
             first = FIRST * min(problem.lumped.second, times.t_end)

@@ -45,6 +45,7 @@ class Moving(Problem):
         lumped: Masses of the nodes.
         parts: Residuals of inertia, elasticity, loads and air in the last step, on all local dofs.
         motion: How the nodes move.
+        turns: Whether any section has rotary inertia, on any rank.
     """
 
     def __init__(self, scene: Scene, discretization: Discretization, placement: Placement, scheme: Scheme) -> None:
@@ -53,8 +54,8 @@ class Moving(Problem):
         self.lumped = Lumped.of(self)
         self.motion = Motion(np.zeros(self.lumped.r.shape), np.zeros((len(self.lumped.q), self.kinematics.n_spin)))
         self._before, self._start = self.x.copy(), self.motion
-        turns = discretization.comm.allreduce(bool(self.lumped.J.any()), op=MPI.LOR)
-        self._turning = (Turning if turns else NoTurning)(self.kinematics, scheme, self.lumped.J)
+        self.turns = discretization.comm.allreduce(bool(self.lumped.J.any()), op=MPI.LOR)
+        self._turning = (Turning if self.turns else NoTurning)(self.kinematics, scheme, self.lumped.J)
         lines = [load for load in scene.loads if isinstance(load, Gravity | LineForce)]
         self._weights = [
             summed(self, vector)
@@ -210,8 +211,7 @@ class Moving(Problem):
 
     def local_error(self) -> float:
         """Error of the last step, in L."""
-        error = self.motion.error(self._start, self.scheme.order)
-        return float(self.discretization.comm.allreduce(error, op=MPI.MAX))
+        return float(self.discretization.comm.allreduce(self.motion.error(self._start, self.scheme.order), op=MPI.MAX))
 
     def rates(self, readout: Readout) -> dict[str, Array]:
         """Velocities and spins at the nodes by cell, on every rank, in working units."""

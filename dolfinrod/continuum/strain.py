@@ -49,7 +49,7 @@ class Strain:
         self._pairs = np.einsum("qa,qb->abq", φ, φ).reshape(-1, len(φ))
         self._rotations = reference.lagrange_basis(d.degree, d.points)
         self._weights = np.diff(problem.ends[self._mine], axis=1) * reference.quadrature_weights(2 * d.degree)
-        self._dofs = {f: d.dofs[f][self._mine].reshape(d.n_owned_cells, -1) for f in ("N", "m")}
+        self._dofs = {f: _flat(d.dofs[f][self._mine]) for f in ("N", "m")}
         self._C_n, C_m = problem.values.C_n[self._mine], problem.values.C_m[self._mine]
         self._solve_n, self._solve_m = _solver(self._C_n, d.degree), _solver(C_m, d.degree)
         self._blocks_m = self._blocks(C_m)
@@ -102,8 +102,14 @@ class Strain:
         """∫ φ_a φ_b C of each element, shape (cells, k d, k d)."""
         cells, points, dim, _ = C.shape
         k = int(np.sqrt(len(self._pairs)))
-        blocks = self._pairs @ (self._weights[:, :, None] * C.reshape(cells, points, -1))
+        blocks = self._pairs @ (self._weights[:, :, None] * C.reshape(cells, points, dim * dim))
         return np.asarray(np.swapaxes(blocks.reshape(cells, k, k, dim, dim), 2, 3).reshape(cells, k * dim, k * dim))
+
+
+def _flat(dofs: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Those of a cell in a row, also where this rank has no cell."""
+    cells, nodes, components = dofs.shape
+    return dofs.reshape(cells, nodes * components)
 
 
 def _solver(C: Array, nodes: int) -> Solve:

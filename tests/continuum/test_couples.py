@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from mpi4py import MPI
+
 import numpy as np
 import pytest
 
@@ -55,3 +57,23 @@ def test_rigid_strains_leave_the_moments_alone(kinematics, rigid):
     assert abs(h.m[-1, -1, 2]) <= 1e-9
     curvature = h.frames[-1, 1, 1, 0] - h.frames[-1, 0, 1, 0]
     assert h.m[-1, 0, 2] == pytest.approx(curvature / (h.s[1] - h.s[0]), rel=0.15)
+
+
+@pytest.mark.parametrize("scheme", [dr.ImplicitEuler(), dr.Midpoint()], ids=["Euler", "midpoint"])
+@both_kinematics
+def test_a_rank_without_elements_or_without_inertia_moves_along(kinematics, scheme):
+    """One element a rod: of two ranks one has none, or only sections that neither turn nor shear, and that damp."""
+    other = dr.Section(EA=900.0, GJ=0.7, EI=1.0, rhoA=1.0, rhoI=(0.0, 0.0, 0.0), rigid={"shear"}, damping=0.01)
+    rods = [dr.Rod.straight(1.0, THICK), dr.Rod.straight(1.0, other, start=(0.0, 1.0, 0.0))]
+    spin = [dr.Velocity(omega=(0.0, 0.0, 2.0))]
+    for posed in (rods[:1], rods):
+        weight = [dr.Gravity((0.0, -3.0, 0.0))]
+        motion = dr.Dynamic(0.1, 0.02, scheme)
+        scene = dr.Scene(posed, [dr.Clamp("start")], weight, motion=motion, velocities=spin)
+        together = dr.solve(scene, elements=1, kinematics=kinematics)
+        alone = dr.solve(scene, elements=1, kinematics=kinematics, comm=MPI.COMM_SELF)
+        for one, same in zip(together.rods, alone.rods, strict=True):
+            np.testing.assert_allclose(one.r, same.r, rtol=0, atol=1e-12)
+            np.testing.assert_allclose(one.m, same.m, rtol=0, atol=1e-10)
+        for name, values in alone.energy.items():
+            np.testing.assert_allclose(together.energy[name], values, rtol=0, atol=1e-10, err_msg=name)
