@@ -210,7 +210,7 @@ def targets(scene: Scene, times: Dynamic) -> list[float]:
     """Times that must be met: the end, the kinks of histories, the stored ones, and equal steps where dt is given."""
     end, dt = times.t_end, times.dt
     n = 1 if dt is None else int(np.ceil(end / dt * (1.0 - SAME)))
-    even = end * np.arange(1, n + 1) / n
+    even = end * (np.arange(1, n + 1) / n)
     corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
     stored = outputs(times)
     met = np.unique(np.concatenate([even, corners, [] if stored is None else stored]))

@@ -8,8 +8,11 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 import dolfinrod as dr
+from dolfinrod.continuum.march import targets
 from tests.scenes import FLAT, SKEW, Pose, both_kinematics
 
 # Section of the planar reference solutions K10: L = EI = ρA = 1, thickness L/10, ν of no importance.
@@ -224,3 +227,14 @@ def test_a_stiff_rod_that_spins_goes_on_to_spin(kinematics, dt):
     whole = energy["kinetic"] + energy["strain"]
     assert np.abs(whole / whole[0] - 1.0).max() <= 5e-3
     assert np.abs(energy["numerical"]).max() <= 5e-3 * whole[0]
+
+
+@example(6, 0.002, None)
+@given(st.integers(1, 400), st.floats(1e-7, 1e3), st.sampled_from([None, 1.0, 3.0]))
+def test_equal_steps_end_where_the_motion_ends(n, dt, every):
+    """n steps and none left out, however n Δt is rounded."""
+    motion = dr.Dynamic(n * dt, dt, output=None if every is None else every * dt)
+    met = targets(dr.Scene([dr.Rod.straight(1.0, SECTION)], motion=motion), motion)
+    assert met[-1] == motion.t_end
+    assert len(met) == n
+    np.testing.assert_allclose(np.diff([0.0, *met]), dt, rtol=1e-6)
