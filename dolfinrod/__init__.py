@@ -15,10 +15,23 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from dolfinrod.eigen import Buckling, Modes, RodShapes
-from dolfinrod.result import Formulation, NotConverged, Result, RodHistory, Statistics, StepLog
+from dolfinrod.result import (
+    ContactHistory,
+    Formulation,
+    NotConverged,
+    Result,
+    RodHistory,
+    Statistics,
+    StepLog,
+    Touching,
+)
 from dolfinrod.scene import (
     Air,
+    AugmentedLagrangian,
     Clamp,
+    Contact,
+    Coulomb,
+    CreepingCoulomb,
     Dynamic,
     FollowerForce,
     FollowerMoment,
@@ -27,8 +40,10 @@ from dolfinrod.scene import (
     ImplicitEuler,
     LineForce,
     Midpoint,
+    Penalty,
     Pin,
     Planar,
+    Plane,
     PointForce,
     PointMoment,
     Prescribed,
@@ -36,10 +51,12 @@ from dolfinrod.scene import (
     Scene,
     SceneError,
     Section,
+    SmoothPenalty,
     Spatial,
     Static,
     Steady,
     Velocity,
+    WallMotion,
 )
 
 if TYPE_CHECKING:
@@ -50,8 +67,13 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Air",
+    "AugmentedLagrangian",
     "Buckling",
     "Clamp",
+    "Contact",
+    "ContactHistory",
+    "Coulomb",
+    "CreepingCoulomb",
     "Dynamic",
     "FollowerForce",
     "FollowerMoment",
@@ -63,8 +85,10 @@ __all__ = [
     "Midpoint",
     "Modes",
     "NotConverged",
+    "Penalty",
     "Pin",
     "Planar",
+    "Plane",
     "PointForce",
     "PointMoment",
     "Prescribed",
@@ -75,12 +99,15 @@ __all__ = [
     "Scene",
     "SceneError",
     "Section",
+    "SmoothPenalty",
     "Spatial",
     "Static",
     "Statistics",
     "Steady",
     "StepLog",
+    "Touching",
     "Velocity",
+    "WallMotion",
     "buckling",
     "critical",
     "modes",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.scene import Dynamic
+from dolfinrod.touching import ContactHistory, Touching
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,7 +17,16 @@ if TYPE_CHECKING:
 
     from dolfinrod.scene import Scene
 
-__all__ = ["Formulation", "NotConverged", "Result", "RodHistory", "Statistics", "StepLog"]
+__all__ = [
+    "ContactHistory",
+    "Formulation",
+    "NotConverged",
+    "Result",
+    "RodHistory",
+    "Statistics",
+    "StepLog",
+    "Touching",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +155,8 @@ class Result:
     The ledger of a motion in time closes: the changes of `kinetic`, `strain` and `potential` since the start add up to
     `load work` + `support work` + `drag` + `damping` + `numerical`. These five are works done on the rods since the
     start, so that what damping takes is negative. A dead load counts in `potential` or in `load work`, never in both;
-    `numerical` is what the time stepping itself adds or takes. Statics keeps `strain` alone.
+    `numerical` is what the time stepping itself adds or takes. Scenes with contacts store energy in `contact`, too, and
+    have the works `friction` and `wall work`, of moving walls. Statics keeps `strain` alone.
 
     Args:
         scene: The scene that was solved.
@@ -156,6 +167,8 @@ class Result:
         energy: Ledger at the stored times, name → shape (n_t,) [J].
         statistics: Cost.
         formulation: What was in the form.
+        state: The last state as the model keeps it, to start from.
+        contacts: Where the rods touched, one a contact of the scene.
     """
 
     scene: Scene
@@ -167,6 +180,7 @@ class Result:
     statistics: Statistics
     formulation: Formulation
     state: dict[str, NDArray[np.float64]] = field(default_factory=dict, repr=False)
+    contacts: tuple[ContactHistory, ...] = ()
 
     @property
     def tip(self) -> NDArray[np.float64]:

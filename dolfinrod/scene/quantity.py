@@ -18,6 +18,7 @@ __all__ = [
     "VectorLike",
     "assign",
     "count",
+    "direction",
     "entries",
     "listed",
     "names",
@@ -97,6 +98,16 @@ def vector(value: object, field: str, unit: str = "") -> Vector:
     """
     components = entries(value, field, unit, 3)
     x, y, z = (number(c, f"{field}[{i}]", unit) for i, c in enumerate(components))
+    return x, y, z
+
+
+def direction(value: object, field: str) -> Vector:
+    """A vector that is not zero, made one of length 1; arguments as `number`."""
+    v = np.asarray(vector(value, field))
+    size = float(np.abs(v).max())
+    if size == 0.0:
+        raise SceneError(f"must not be zero, got {value}", field=field)
+    x, y, z = (float(c) for c in v / size / np.linalg.norm(v / size))
     return x, y, z
 
 

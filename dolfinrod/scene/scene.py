@@ -8,7 +8,9 @@ from itertools import groupby
 from operator import itemgetter
 
 from dolfinrod.scene.air import Air
+from dolfinrod.scene.contact import Contact
 from dolfinrod.scene.errors import SceneError, quoted
+from dolfinrod.scene.friction import CreepingCoulomb
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
 from dolfinrod.scene.motion import Dynamic, Motion, Static
 from dolfinrod.scene.quantity import Place, assign
@@ -35,7 +37,7 @@ class Scene:
         rods: At least one.
         supports: What holds them.
         loads: What acts on them.
-        contacts: None in this version.
+        contacts: What they touch.
         air: What flows past the rods; None: nothing.
         motion: How the scene moves on.
         velocities: How the rods move at the start of a Dynamic motion.
@@ -47,7 +49,7 @@ class Scene:
     rods: Sequence[Rod]
     supports: Sequence[Support] = ()
     loads: Sequence[Load] = ()
-    contacts: Sequence[object] = ()
+    contacts: Sequence[Contact] = ()
     air: Air | None = None
     motion: Motion = field(default_factory=Static)
     velocities: Sequence[Velocity] = ()
@@ -67,6 +69,7 @@ class Scene:
                 self._check_places(part, f"{name}[{i}]")
         self._check_density()
         self._check_motion()
+        self._check_contacts()
         self._check_supports()
 
     def location(self, at: Place, rod: int | None) -> list[tuple[int, float]]:
@@ -110,6 +113,7 @@ class Scene:
             "rods": (Rod,),
             "supports": SUPPORTS,
             "loads": (*POINT_LOADS, LineForce, Gravity),
+            "contacts": (Contact,),
             "velocities": (Velocity,),
         }
         for name, allowed in kinds.items():
@@ -119,10 +123,6 @@ class Scene:
                     raise SceneError(f"must be one of {known}, got {quoted(part)}", field=f"{name}[{i}]")
         if not self.rods:
             raise SceneError("must hold at least one rod, got none", field="rods")
-        if self.contacts:
-            raise SceneError(
-                f"must be empty, this version knows no contact, got {quoted(self.contacts)}", field="contacts"
-            )
         if not (self.air is None or isinstance(self.air, Air)):
             raise SceneError(f"must be Air or None, got {quoted(self.air)}", field="air")
         if not isinstance(self.motion, Static | Dynamic):
@@ -178,6 +178,22 @@ class Scene:
             if self.air is not None and rod.section.radius is None:
                 needed = "must be given [m], since air drags the rod, got None"
                 raise SceneError(needed, field=f"rods[{k}].section.radius")
+
+    def _check_contacts(self) -> None:
+        """What touches has a surface of its own, and friction against the velocity a motion in time."""
+        for i, contact in enumerate(self.contacts):
+            if contact.rod is not None and contact.rod >= len(self.rods):
+                below = f"must be below {len(self.rods)}, the number of rods, got {contact.rod}"
+                raise SceneError(below, field=f"contacts[{i}].rod")
+            for k in range(len(self.rods)) if contact.rod is None else (contact.rod,):
+                if self.rods[k].section.radius is None:
+                    needed = f"must be given [m], since the rod may touch contacts[{i}], got None"
+                    raise SceneError(needed, field=f"rods[{k}].section.radius")
+            if isinstance(contact.friction, CreepingCoulomb) and isinstance(self.motion, Static):
+                raise SceneError(
+                    "must not be CreepingCoulomb, since motion is Static: it acts against velocities",
+                    field=f"contacts[{i}].friction",
+                )
 
     def _check_supports(self) -> None:
         """No component is held twice at one place; prescribed motions compose."""

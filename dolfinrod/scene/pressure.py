@@ -1,0 +1,184 @@
+"""How a surface pushes back: line load against gap, Eq. 27 of the paper, smoothed, or up to a penetration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dolfinrod.scene.quantity import assign, number, positive
+
+__all__ = ["AugmentedLagrangian", "NormalLaw", "Penalty", "SmoothPenalty"]
+
+Array = NDArray[np.float64]
+
+# Ways, in feet, below which a difference of energies loses digits.
+SHORT = 1e-3
+
+
+class NormalLaw(Protocol):
+    """Contract: a line load p(g) that falls with the gap g, zero from g_0 on."""
+
+    @property
+    def eps_N(self) -> float:
+        """Largest slope −dp/dg [N/m²]."""
+        ...
+
+    @property
+    def g_0(self) -> float:
+        """Gap at which contact begins [m]."""
+        ...
+
+    def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
+        """p and dp/dg, shapes (n,) [N/m, N/m²], at gaps g [m] and multipliers λ [N/m]."""
+        ...
+
+    def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
+        """Mean of p over gaps from g to h, with which work is the difference of energies; and its slope in h."""
+        ...
+
+    def energy(self, g: Array, λ: Array) -> Array:
+        """∫ p dg from g to g_0, shape (n,) [N]."""
+        ...
+
+
+@dataclass(frozen=True)
+class Penalty:
+    """Line load that grows in proportion to how far a rod has come within g_0, p = ε_N (g_0 − g), Eq. 27.
+
+    g is the gap between the surface of the rod and the wall. A wall under a line load q is met at g = g_0 − q/ε_N.
+
+    Args:
+        eps_N: ε_N, the paper's c [N/m²].
+        g_0: The paper's ε_0, where contact begins [m].
+
+    Raises:
+        SceneError: A stiffness that is not positive.
+    """
+
+    eps_N: float
+    g_0: float = 0.0
+
+    def __post_init__(self) -> None:
+        assign(self, eps_N=positive(self.eps_N, "Penalty.eps_N", "N/m²"), g_0=number(self.g_0, "Penalty.g_0", "m"))
+
+    @classmethod
+    def paper(cls) -> Penalty:
+        """The numbers of the paper read in SI, c = 2e4 N/m² and ε_0 = 75 µm: a halo of nearly four diameters."""
+        return cls(2e4, 7.5e-5)
+
+    @classmethod
+    def tight(cls) -> Penalty:
+        """A halo of 1 µm, ε_N = 4e5 N/m²: for fibres of some 20 µm that lie against each other."""
+        return cls(4e5, 1e-6)
+
+    def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
+        """See `NormalLaw`; λ has no part in it."""
+        p = self.eps_N * np.maximum(self.g_0 - g, 0.0)
+        return p, np.where(p > 0.0, -self.eps_N, 0.0)
+
+    def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
+        """See `NormalLaw`."""
+        (p, _), (q, slope) = self.pressure(g, λ), self.pressure(h, λ)
+        one_side = ((p > 0.0) != (q > 0.0)) & (g != h)
+        way = np.where(one_side, h - g, 1.0)
+        mean = 0.5 * (p + q) * np.where(one_side, (p - q) / (self.eps_N * way), 1.0)
+        return mean, np.where(one_side, (q - mean) / way, 0.5 * slope)
+
+    def energy(self, g: Array, λ: Array) -> Array:
+        """See `NormalLaw`."""
+        return np.asarray(0.5 * self.eps_N * np.maximum(self.g_0 - g, 0.0) ** 2)
+
+
+@dataclass(frozen=True)
+class SmoothPenalty:
+    """The same with a round foot: with δ = g_0 − g, p = ε_N δ²/2w up to δ = w, then ε_N (δ − w/2).
+
+    Its slope has no jump, so that Newton's method is quadratic where contact begins, too.
+
+    Args:
+        eps_N: Slope beyond the foot [N/m²].
+        foot: w, the width of the foot [m].
+        g_0: Gap where contact begins [m].
+
+    Raises:
+        SceneError: A stiffness or width that is not positive.
+    """
+
+    eps_N: float
+    foot: float
+    g_0: float = 0.0
+
+    def __post_init__(self) -> None:
+        assign(
+            self,
+            eps_N=positive(self.eps_N, "SmoothPenalty.eps_N", "N/m²"),
+            foot=positive(self.foot, "SmoothPenalty.foot", "m"),
+            g_0=number(self.g_0, "SmoothPenalty.g_0", "m"),
+        )
+
+    def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
+        """See `NormalLaw`; λ has no part in it."""
+        δ = np.maximum(self.g_0 - g, 0.0)
+        bent = np.minimum(δ, self.foot)
+        return self.eps_N * (0.5 * bent**2 / self.foot + δ - bent), -self.eps_N * (bent / self.foot)
+
+    def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
+        """See `NormalLaw`; over short ways by Simpson's rule, exact but where pieces of the law meet."""
+        middle, end = self.pressure(0.5 * (g + h), λ), self.pressure(h, λ)
+        short = np.abs(h - g) <= SHORT * self.foot
+        way = np.where(short, 1.0, h - g)
+        mean = (self.energy(g, λ) - self.energy(h, λ)) / way
+        simpson = (self.pressure(g, λ)[0] + 4.0 * middle[0] + end[0]) / 6.0
+        slope = np.where(short, (2.0 * middle[1] + end[1]) / 6.0, (end[0] - mean) / way)
+        return np.where(short, simpson, mean), slope
+
+    def energy(self, g: Array, λ: Array) -> Array:
+        """See `NormalLaw`."""
+        δ = np.maximum(self.g_0 - g, 0.0)
+        bent = np.minimum(δ, self.foot)
+        beyond = δ - bent
+        return self.eps_N * (bent**3 / (6.0 * self.foot) + 0.5 * beyond * (beyond + self.foot))
+
+
+@dataclass(frozen=True)
+class AugmentedLagrangian:
+    """No penetration but a tolerance: p = max(0, λ − ε_N g), λ renewed by p until no rod is deeper than that.
+
+    ε_N then only decides how many renewals it takes, not the answer.
+
+    Args:
+        eps_N: Slope in each of them [N/m²].
+        tolerance: Largest penetration, and largest gap under load [m].
+
+    Raises:
+        SceneError: A stiffness or tolerance that is not positive.
+
+    Source: Simo & Laursen, Computers & Structures 42, 1992, DOI 10.1016/0045-7949(92)90540-G.
+    """
+
+    eps_N: float
+    tolerance: float
+    g_0: ClassVar[float] = 0.0
+
+    def __post_init__(self) -> None:
+        assign(
+            self,
+            eps_N=positive(self.eps_N, "AugmentedLagrangian.eps_N", "N/m²"),
+            tolerance=positive(self.tolerance, "AugmentedLagrangian.tolerance", "m"),
+        )
+
+    def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
+        """See `NormalLaw`."""
+        p = np.maximum(λ - self.eps_N * g, 0.0)
+        return p, np.where(p > 0.0, -self.eps_N, 0.0)
+
+    def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
+        """The pressure at h: multipliers hold at the end of a step."""
+        return self.pressure(h, λ)
+
+    def energy(self, g: Array, λ: Array) -> Array:
+        """None is stored but what penetration is left."""
+        return np.zeros_like(g)

@@ -1,0 +1,161 @@
+"""Traction of points that rub on a wall at rest, and how it changes with where they are and how they turn.
+
+All vectors are in the axes of the wall, one row a point.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Pressed", "Rubbing", "Step", "rubbed", "skew", "slip_gradients", "traction_gradient"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Pressed:
+    """Points in contact.
+
+    Args:
+        p: Line load, shape (n,) [N/m].
+        p_X: ∂p/∂X, shape (n, 3).
+        n: Normals, shape (n, 3).
+        n_X: ∂n/∂X, shape (n, 3, 3).
+        radius: Of the rods, shape (n,) [m].
+    """
+
+    p: Array
+    p_X: Array
+    n: Array
+    n_X: Array
+    radius: Array
+
+    def gradient(self) -> Array:
+        """∂(p n)/∂X, shape (n, 3, 3)."""
+        return self.n[:, :, None] * self.p_X[:, None, :] + self.p[:, None, None] * self.n_X
+
+
+@dataclass(frozen=True, eq=False)
+class Rubbing:
+    """What rubs.
+
+    Args:
+        traction: Shape (n, 3) [N/m].
+        anchored: Displacement from the anchors, shape (n, 3) [m].
+        slipped: Way of the anchors in the step, shape (n,) [m].
+        u: Displacement from where the anchors were, shape (n, 3) [m].
+        slides: Whether the anchors moved, shape (n,).
+    """
+
+    traction: Array
+    anchored: Array
+    slipped: Array
+    u: Array
+    slides: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """Where a step has led.
+
+    Args:
+        X: All points, shape (n, 3) [m].
+        turned: Turn of their sections against the wall, shape (n, 3) [rad].
+        gap: Shape (n,) [m].
+        on: Numbers of those that touch, shape (m,).
+        pressed: These.
+        share: Part of the step over which they did, shape (m,).
+        w: Way of the rods' surface past the wall in the step, shape (m, 3) [m].
+        v: Displacement from their anchors, shape (m, 3) [m].
+        rubbing: None where nothing sticks.
+    """
+
+    X: Array
+    turned: Array
+    gap: Array
+    on: NDArray[np.intp]
+    pressed: Pressed
+    share: Array
+    w: Array
+    v: Array
+    rubbing: Rubbing | None
+
+
+def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float) -> Rubbing:
+    """Return mapping: the anchors follow where they would pull harder than μ p.
+
+    Args:
+        pressed: The points.
+        v: Displacement of the rods' surface from the anchors, its part along the normal included, shape (n, 3).
+        μ: Coefficient of friction.
+        ε_T: Stiffness of the anchors [N/m²].
+
+    Returns:
+        Tractions and where the anchors are.
+    """
+    u = v - np.einsum("ni,ni->n", v, pressed.n)[:, None] * pressed.n
+    far, reach = np.sqrt(np.einsum("ni,ni->n", u, u)), μ * pressed.p / ε_T
+    slides = far > reach
+    held = np.where(slides, reach / np.where(slides, far, 1.0), 1.0)
+    anchored = held[:, None] * u
+    return Rubbing(-ε_T * anchored, anchored, np.where(slides, far - reach, 0.0), u, slides)
+
+
+def traction_gradient(pressed: Pressed, rubbing: Rubbing, u_q: Array, μ: float, ε_T: float) -> Array:
+    """∂t/∂q where q moves u and the pressure, shape (n, 3, m).
+
+    Args:
+        pressed: The points; p_X is ∂p/∂q here, shape (n, m).
+        rubbing: What rubs.
+        u_q: ∂u/∂q, shape (n, 3, m).
+        μ: Coefficient of friction.
+        ε_T: Stiffness of the anchors.
+
+    Returns:
+        The derivative.
+    """
+    far = np.sqrt(np.einsum("ni,ni->n", rubbing.u, rubbing.u))
+    slides = rubbing.slides
+    e = rubbing.u / np.where(far > 0.0, far, 1.0)[:, None]
+    shrunk = np.where(slides, μ * pressed.p / (ε_T * np.where(slides, far, 1.0)), 1.0)[:, None, None]
+    along = np.where(slides, 1.0, 0.0)[:, None, None] * e[:, :, None] * np.einsum("ni,nij->nj", e, u_q)[:, None, :]
+    follows = np.where(slides, μ, 0.0)[:, None, None] * e[:, :, None] * pressed.p_X[:, None, :]
+    return -ε_T * shrunk * (u_q - along) - follows
+
+
+def slip_gradients(step: Step, start: Array, g_0: float) -> tuple[Array, Array]:
+    """Derivatives of the displacement u from the anchors.
+
+    u = P v, v = u₀ + share (X − X₀ − r Ψ × n), P = 1 − n⊗n.
+
+    Args:
+        step: Where it is.
+        start: Gaps where the step began, shape (m,).
+        g_0: Gap at which contact begins.
+
+    Returns:
+        ∂u/∂X and ∂u/∂Ψ, shapes (m, 3, 3).
+    """
+    pressed, gap = step.pressed, step.gap[step.on]
+    n, n_X, share = pressed.n, pressed.n_X, step.share[:, None, None]
+    P = np.eye(3) - n[:, :, None] * n[:, None, :]
+    partly = (step.share > 0.0) & (step.share < 1.0)
+    fading = np.where(partly, (start - g_0) / np.where(partly, start - gap, 1.0) ** 2, 0.0)
+    size = np.sqrt(np.einsum("ni,ni->n", pressed.p_X, pressed.p_X))
+    down = pressed.p_X / np.where(size > 0.0, size, 1.0)[:, None]
+    v_X = share * (np.eye(3) - pressed.radius[:, None, None] * (skew(step.turned[step.on]) @ n_X))
+    v_X += step.w[:, :, None] * (fading[:, None] * down)[:, None, :]
+    u_X = P @ v_X - np.einsum("ni,ni->n", n, step.v)[:, None, None] * n_X
+    u_X -= n[:, :, None] * np.einsum("nij,ni->nj", n_X, step.v)[:, None, :]
+    return u_X, share * pressed.radius[:, None, None] * (P @ skew(n))
+
+
+def skew(a: Array) -> Array:
+    """Matrices of a × ·, shape (n, 3, 3)."""
+    matrices = np.zeros((*a.shape, 3))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        matrices[:, i, j], matrices[:, j, i] = -a[:, k], a[:, k]
+    return matrices

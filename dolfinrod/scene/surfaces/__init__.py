@@ -1,0 +1,9 @@
+"""Rigid surfaces: their signed distances, normals and curvatures; NumPy only."""
+
+from dolfinrod.scene.surfaces.plane import Plane
+from dolfinrod.scene.surfaces.surface import Closest, Surface
+from dolfinrod.scene.surfaces.wall import REST, Pose, WallMotion
+
+__all__ = ["REST", "SURFACES", "Closest", "Plane", "Pose", "Surface", "WallMotion"]
+
+SURFACES = (Plane,)

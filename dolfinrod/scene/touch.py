@@ -1,0 +1,216 @@
+"""Points of rods that may touch one surface: what acts on them, and what they remember from step to step.
+
+The rods may turn and the wall may move; everything is worked out in axes that move with the wall, in which it rests,
+and turned into space at the end. Both models of this project ask here, each for its own points.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
+from dolfinrod.scene.reply import OPEN, SLIDES, STICKS, Booked, Gradient, Reply
+from dolfinrod.scene.rubbing import Pressed, Step, rubbed, skew, slip_gradients, traction_gradient
+from dolfinrod.scene.surfaces import REST, Pose
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from dolfinrod.scene.contact import Contact
+
+__all__ = ["Touch"]
+
+Array = NDArray[np.float64]
+
+
+class Touch:
+    """Points of rods against one surface.
+
+    Args:
+        contact: The surface and its laws.
+        radius: Of the rod at each point, shape (n,) [m].
+        t_end: Where the time of the scene ends.
+        level: Where in a step forces act: 1 at its end, ½ in the middle.
+    """
+
+    def __init__(self, contact: Contact, radius: Array, t_end: float, level: float = 1.0) -> None:
+        self.contact, self._radius, self._t_end, self._level = contact, radius, t_end, level
+        self._law, self._friction = contact.law, contact.friction
+        self._ε_T = self._law.eps_N
+        if isinstance(self._friction, Coulomb) and self._friction.eps_T is not None:
+            self._ε_T = self._friction.eps_T
+        n = len(radius)
+        self._λ, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
+        self._state = np.zeros(n, dtype=np.int8)
+        self.changed = False
+
+    def place(self, x: Array, t: float) -> None:
+        """The rods are at x; nothing is remembered."""
+        self._t_0 = t
+        self._x_0, self._X_0 = x.copy(), self._pose(t).back(x)
+        self._gap_0 = self._law_gap(self._X_0)
+        for memory in (self._λ, self._slip, self._u):
+            memory[:] = 0.0
+        self._state[:] = OPEN
+        self.begin(t)
+
+    def begin(self, t: float) -> None:
+        """A step from where the rods were last accepted leads to time t."""
+        self._t, self._dt = t, t - self._t_0
+        start, self._end, middle = (self._pose(s) for s in (self._t_0, t, self._t_0 + self._level * self._dt))
+        self._acting, self._start = middle, start
+        motion = self.contact.surface.motion
+        self._wall_turn = (
+            np.zeros(3) if motion is None else motion.turn(t, self._t_end) - motion.turn(self._t_0, self._t_end)
+        )
+
+    def _pose(self, t: float) -> Pose:
+        motion = self.contact.surface.motion
+        return REST if motion is None else motion.pose(t, self._t_end)
+
+    def _law_gap(self, X: Array) -> Array:
+        return self.contact.surface.closest(X).distance - self._radius
+
+    def respond(self, x: Array, turn: Array) -> Reply:
+        """What acts where the step has led.
+
+        Args:
+            x: Points in space at its end, shape (n, 3) [m].
+            turn: Rotation vectors of the sections over the step, in space, shape (n, 3) [rad].
+
+        Returns:
+            Forces and moments per length.
+        """
+        step = self._step = self._led(self._end.back(x), turn @ self._end.Q - self._wall_turn)
+        Q, n = self._acting.Q, len(x)
+        pressure, normal, traction, moment = np.zeros(n), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros((n, 3))
+        state = np.zeros(n, dtype=np.int8)
+        pressed, on = step.pressed, step.on
+        pressure[on], normal[on], state[on] = pressed.p, pressed.n @ Q.T, SLIDES
+        if step.rubbing is not None:
+            t = step.rubbing.traction
+            state[on] = np.where(step.rubbing.slides, SLIDES, STICKS)
+            traction[on] = t @ Q.T
+            moment[on] = -pressed.radius[:, None] * np.cross(pressed.n, t) @ Q.T
+        elif isinstance(self._friction, CreepingCoulomb):
+            v, speed = self._velocity(x[on])
+            traction[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
+        self.changed = not np.array_equal(state, self._state)
+        self._state, self._x, self._turn = state, x.copy(), turn
+        self._reply = Reply(step.gap, pressure, normal, traction, moment, state)
+        return self._reply
+
+    def _led(self, X: Array, turned: Array) -> Step:
+        """Pressures and tractions, in the axes of the wall."""
+        closest = self.contact.surface.closest(X)
+        gap, at_end = closest.distance - self._radius, closest.normal
+        if self._level == 1.0:
+            p, slope = self._law.pressure(gap, self._λ)
+        else:
+            p, slope = self._law.mean(self._gap_0, gap, self._λ)
+            closest = self.contact.surface.closest((1.0 - self._level) * self._X_0 + self._level * X)
+        on = np.flatnonzero(p > 0.0)
+        pressed = Pressed(
+            p[on],
+            slope[on, None] * at_end[on],
+            closest.normal[on],
+            self._level * closest.curvature[on],
+            self._radius[on],
+        )
+        share, none = np.ones(len(on)), np.zeros((len(on), 3))
+        if not isinstance(self._friction, Coulomb):
+            return Step(X, turned, gap, on, pressed, share, none, none, None)
+        # What came from afar in this step has touched only over the last part of its way.
+        far = self._gap_0[on] > self._law.g_0
+        way = np.where(far, self._gap_0[on] - gap[on], 1.0)
+        share = np.where(far, np.clip((self._law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
+        w = (X - self._X_0)[on] - pressed.radius[:, None] * np.cross(turned[on], pressed.n)
+        v = self._u[on] + share[:, None] * w
+        return Step(X, turned, gap, on, pressed, share, w, v, rubbed(pressed, v, self._friction.mu, self._ε_T))
+
+    def _velocity(self, x: Array) -> tuple[Array, Array]:
+        """Velocity of the points that touch in space, and √(|v|² + v_0²)."""
+        assert isinstance(self._friction, CreepingCoulomb)
+        v = (x - self._x_0[self._step.on]) / self._dt
+        return v, np.sqrt(np.einsum("ni,ni->n", v, v) + self._friction.v_0**2)
+
+    def gradient(self) -> Gradient:
+        """Derivatives of the last reply."""
+        step, pressed = self._step, self._step.pressed
+        f_x = pressed.gradient()
+        none = np.zeros_like(f_x)
+        if step.rubbing is not None:
+            assert isinstance(self._friction, Coulomb)
+            u_x, u_turn = slip_gradients(step, self._gap_0[step.on], self._law.g_0)
+            still, law = replace(pressed, p_X=np.zeros_like(pressed.p_X)), (self._friction.mu, self._ε_T)
+            t_x = traction_gradient(pressed, step.rubbing, u_x, *law)
+            t_turn = traction_gradient(still, step.rubbing, u_turn, *law)
+            r, across = pressed.radius[:, None, None], skew(pressed.n)
+            m_x = -r * (across @ t_x - skew(step.rubbing.traction) @ pressed.n_X)
+            return self._in_space(f_x + t_x, t_turn, m_x, -r * (across @ t_turn))
+        if isinstance(self._friction, CreepingCoulomb):
+            f_x = f_x + self._creeping_gradient(self._friction)
+        return self._in_space(f_x, none, none, none)
+
+    def _in_space(self, *blocks: Array) -> Gradient:
+        f_x, f_turn, m_x, m_turn = (self._acting.Q @ block @ self._end.Q.T for block in blocks)
+        return Gradient(self._step.on, f_x, f_turn, m_x, m_turn)
+
+    def _creeping_gradient(self, friction: CreepingCoulomb) -> Array:
+        """∂t/∂X of friction against the velocity, in the axes of the wall."""
+        v, speed = self._velocity(self._x[self._step.on])
+        p, Q = self._step.pressed.p, self._acting.Q
+        bent = np.eye(3) / speed[:, None, None] - v[:, :, None] * v[:, None, :] / (speed**3)[:, None, None]
+        follows = (v @ Q / speed[:, None])[:, :, None] * self._step.pressed.p_X[:, None, :]
+        return -friction.mu * (follows + Q.T @ bent @ self._end.Q * (p / self._dt)[:, None, None])
+
+    def renew(self) -> bool:
+        """Give the multipliers what has just acted; whether that was within the tolerance of the law already."""
+        tolerance = getattr(self._law, "tolerance", None)
+        if tolerance is None:
+            return True
+        touching = self._reply.pressure > 0.0
+        done = not bool((np.abs(self._reply.gap[touching]) > tolerance).any())
+        if not done:
+            self._λ = self._reply.pressure.copy()
+        return done
+
+    def accept(self) -> Booked:
+        """The step counts, with what has acted in it."""
+        step, reply, force = self._step, self._reply, self._reply.force
+        on, anchors = step.on, 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
+        path, turned = step.X - self._X_0, step.turned
+        in_wall = np.einsum("ni,ni->n", force @ self._acting.Q, path)
+        in_wall += np.einsum("ni,ni->n", reply.moment @ self._acting.Q, turned)
+        moved = self._x - self._x_0
+        pushed = np.einsum("ni,ni->n", force, moved) + np.einsum("ni,ni->n", reply.moment, self._turn) - in_wall
+        self._u[:] = 0.0
+        rubbed = anchors
+        if step.rubbing is not None:
+            self._u[on], self._slip[on] = step.rubbing.anchored, self._slip[on] + step.rubbing.slipped
+            rubbed[on] -= step.share * np.einsum("ni,ni->n", step.rubbing.traction, step.w)
+        elif isinstance(self._friction, CreepingCoulomb):
+            rubbed = -np.einsum("ni,ni->n", reply.traction, moved)
+        held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
+        self._x_0, self._X_0, self._gap_0, self._t_0 = self._x, step.X, step.gap, self._t
+        return Booked(self._law.energy(step.gap, self._λ) + held, rubbed - held, pushed)
+
+    def memory(self) -> dict[str, Array]:
+        """All that the points remember, one row a point: what `recall` takes."""
+        return {
+            "x": self._x_0.copy(),
+            "anchored": self._u.copy(),
+            "multiplier": self._λ.copy(),
+            "slip": self._slip.copy(),
+            "state": self._state.astype(float),
+        }
+
+    def recall(self, memory: Mapping[str, Array], t: float) -> None:
+        """Go back, or on, to what was remembered at time t."""
+        self.place(memory["x"], t)
+        self._u, self._λ, self._slip = (memory[name].copy() for name in ("anchored", "multiplier", "slip"))
+        self._state = memory["state"].astype(np.int8)
