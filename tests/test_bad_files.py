@@ -58,6 +58,10 @@ CONTENTS = {
         BARE + b"[[supports]]\npin = { at = 0 }\n" * 20_000,
         "supports must be at most 10000, got 20000",
     ),
+    "20000 contacts": (
+        BARE + b"[[contacts]]\nplane = {}\n" * 20_000,
+        "contacts must be at most 10000, got 20000",
+    ),
     "20000 points": (
         BARE + b'[[rods]]\nsection = "a"\nthrough = { points = [' + b"[0, 0, 1]," * 20_000 + b"] }",
         "rods[1].through.points must be at most 10000, got 20000",

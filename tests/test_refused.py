@@ -68,6 +68,19 @@ def row(name: str, python: Callable[[], object], old: str, new: str, words: str)
 
 
 UP = (0, 1, 0)
+FLOOR = dr.Contact(dr.Plane())
+MOTION_TEXT = "[motion.static]"
+
+
+def touching(**changes: object) -> Callable[[], object]:
+    return lambda: dr.Scene([FIBRE], [CLAMP], contacts=[dr.Contact(**{"surface": dr.Plane(), **changes})])
+
+
+def contact_row(name: str, python: Callable[[], object], table: str, words: str) -> object:
+    """A mistake in a contact, which the complete scene file has none of."""
+    return row(name, python, MOTION_TEXT, f"[[contacts]]\n{table}\n{MOTION_TEXT}", words)
+
+
 MISTAKES = [
     row("negative length", fibre(length=-0.04), '"40 mm"', '"-40 mm"', "length must be positive, got -0.04 m"),
     row("zero diameter", circle(diameter=0.0), '"20 um"', '"0 um"', "diameter must be positive, got 0.0 m"),
@@ -164,6 +177,64 @@ MISTAKES = [
         "elements = 0",
         "of at least 1, got 0",
     ),
+    contact_row(
+        "a wall as soft as air",
+        lambda: dr.Penalty(0.0),
+        'plane = {}\nlaw.penalty = { eps_N = "0 N/m**2" }',
+        "eps_N must be positive, got 0.0 N/m²",
+    ),
+    contact_row(
+        "friction that drives",
+        lambda: dr.Coulomb(-0.3),
+        "plane = {}\nfriction.coulomb = { mu = -0.3 }",
+        "mu must not be negative, got -0.3",
+    ),
+    contact_row(
+        "a wall without direction",
+        lambda: dr.Plane(normal=(0, 0, 0)),
+        "plane = { normal = [0, 0, 0] }",
+        "normal must not be zero, got",
+    ),
+    contact_row(
+        "a roller of no radius",
+        lambda: dr.Cylinder((0, 0, 0), UP, 0.0),
+        'cylinder = { point = [0, 0, 0], axis = [0, 1, 0], radius = "0 mm" }',
+        "radius must be positive, got 0.0 m",
+    ),
+    contact_row(
+        "neither outside nor inside",
+        lambda: dr.Cylinder((0, 0, 0), UP, 1.0, "above"),
+        'cylinder = { point = [0, 0, 0], axis = [0, 1, 0], radius = 1, side = "above" }',
+        'side must be "outside" or "inside", got \'above\'',
+    ),
+    contact_row(
+        "a wall that turns about two axes",
+        lambda: dr.WallMotion(rotation=(1, 0, 0), spin=(0, 1, 0)),
+        "plane = { motion = { rotation = [1, 0, 0], spin = [0, 1, 0] } }",
+        "spin must be along rotation (1.0, 0.0, 0.0) rad, got (0.0, 1.0, 0.0) rad/s",
+    ),
+    contact_row(
+        "a rod that is none touches",
+        touching(rod=1),
+        "plane = {}\nrod = 1",
+        "contacts[0].rod must be below 1, the number of rods, got 1",
+    ),
+    contact_row(
+        "creep at rest",
+        touching(friction=dr.CreepingCoulomb(0.3, 1e-3)),
+        'plane = {}\nfriction.creeping_coulomb = { mu = 0.3, v_0 = "1 mm/s" }',
+        "contacts[0].friction must not be CreepingCoulomb, since motion is Static",
+    ),
+    row(
+        "a rod of no thickness touches",
+        lambda: dr.Scene(
+            [dr.Rod.straight(1.0, dr.Section(GJ=1, EI=1, rigid={"shear", "extension"}))], contacts=[FLOOR]
+        ),
+        COMPLETE,
+        '[section.a]\nGJ = 1\nEI = 1\nrigid = ["shear", "extension"]\n[[rods]]\nstraight = { length = 1 }\n'
+        'section = "a"\n[[contacts]]\nplane = {}\n',
+        "rods[0].section.radius must be given [m], since the rod may touch contacts[0]",
+    ),
 ]
 # What Python answers by itself, as for every misspelt name and every key given twice.
 IN_FILES = [
@@ -181,6 +252,13 @@ IN_FILES = [
     ("[[rods]]", "[section.ramie.circle]\n[[rods]]", "Cannot declare ('section', 'ramie', 'circle') twice"),
     (FORCE_TEXT, f"{FORCE_TEXT}\n{FORCE_TEXT}", "a scene must be a TOML file: Cannot overwrite a value"),
     (FORCE_TEXT, f"{FORCE_TEXT}\ngravity = {{ g = [0, 0, 1] }}", "loads[0] must be one of point_force, "),
+    (MOTION_TEXT, "[[contacts]]\nplain = {}", "contacts[0].plain is unknown; known are plane, cylinder, groove, law, "),
+    (MOTION_TEXT, "[[contacts]]\nlaw = 'tight'", "contacts[0] must be one of plane, cylinder, groove, got none"),
+    (
+        MOTION_TEXT,
+        "[[contacts]]\nplane = {}\nlaw = 'soft'",
+        'contacts[0].law must be "paper" or "tight", or a table that',
+    ),
     ("degree = 3", "degree = 9", "solve.degree must be at most 5, got 9"),
     ("degree = 3", "order = 3", "solve.order is unknown; known are elements, degree, kinematics"),
 ]

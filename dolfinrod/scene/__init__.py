@@ -4,7 +4,7 @@ from dolfinrod.scene.air import Air
 from dolfinrod.scene.contact import Contact
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
-from dolfinrod.scene.history import Steady, factor, kinks
+from dolfinrod.scene.history import Steady, corners, factor, kinks
 from dolfinrod.scene.kinematics import Kinematics, Planar, Spatial, detect, obstacle
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
 from dolfinrod.scene.motion import Dynamic, ImplicitEuler, Midpoint, Static, in_time
@@ -15,7 +15,7 @@ from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import UniformCurvature
 from dolfinrod.scene.spline import Spline
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
-from dolfinrod.scene.surfaces import Plane, WallMotion
+from dolfinrod.scene.surfaces import Cylinder, Groove, Plane, WallMotion
 from dolfinrod.scene.touch import Touch
 from dolfinrod.scene.velocity import Velocity
 
@@ -26,10 +26,12 @@ __all__ = [
     "Contact",
     "Coulomb",
     "CreepingCoulomb",
+    "Cylinder",
     "Dynamic",
     "FollowerForce",
     "FollowerMoment",
     "Gravity",
+    "Groove",
     "Guide",
     "ImplicitEuler",
     "Kinematics",
@@ -57,6 +59,7 @@ __all__ = [
     "UniformCurvature",
     "Velocity",
     "WallMotion",
+    "corners",
     "detect",
     "factor",
     "in_time",

@@ -15,6 +15,9 @@ __all__ = ["Findings", "advice"]
 
 # Turn between neighbouring sections from which an element is no longer near the rod [rad].
 COARSE = 1.0
+# What helps where contact comes and goes, or rods slip.
+SOFTER = "contact that is softer (a smaller eps_N) or begins smoothly (SmoothPenalty)"
+MASS = "a Dynamic motion, in which mass holds what slips"
 
 
 @dataclass(frozen=True)
@@ -49,12 +52,11 @@ def advice(scene: Scene, found: Findings) -> str:
         Sentences without the last full stop.
     """
     if isinstance(scene.motion, Dynamic):
-        dt = scene.motion.dt
-        finer = "a smaller Dynamic(tol=…)" if dt is None else f"Dynamic(dt={dt / 2:g})"
-        return f"Try {finer}, more elements, or look at `.result` (what converged) for what grows without bound"
+        return _in_time(scene, scene.motion.dt)
     free = free_motions(scene)
     if free and (found.t == 0.0 or found.pushed):
-        return f"Likely a mechanism. Nothing holds the rods completely: {'; '.join(free)}. Try more supports"
+        also = f", to begin where rods touch what holds them, or {MASS}" if scene.contacts else ""
+        return f"Likely a mechanism. Nothing holds the rods completely: {'; '.join(free)}. Try more supports{also}"
     if found.aliased:
         return "Likely too few elements for so many turns: try more elements"
     if found.turned > COARSE:
@@ -74,7 +76,15 @@ def advice(scene: Scene, found: Findings) -> str:
             "leads to a stable branch"
         )
     steps = scene.motion.steps
+    touching = f"{SOFTER}, {MASS}, " if scene.contacts else ""
     return (
-        f"The iteration did not settle. Try Static(steps={2 * steps if steps else 8}), more elements, or look at "
-        "`.result` (what converged)"
+        f"The iteration did not settle. Try Static(steps={2 * steps if steps else 8}), {touching}more elements, or "
+        "look at `.result` (what converged)"
     )
+
+
+def _in_time(scene: Scene, dt: float | None) -> str:
+    """What to try where a motion in time steps of dt went astray."""
+    finer = "a smaller Dynamic(tol=…)" if dt is None else f"Dynamic(dt={dt / 2:g})"
+    softer = f"{SOFTER}, " if scene.contacts else ""
+    return f"Try {finer}, {softer}more elements, or look at `.result` (what converged) for what grows without bound"

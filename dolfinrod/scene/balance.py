@@ -26,7 +26,7 @@ def pushed_away(scene: Scene) -> tuple[str, ...]:
 
     With δr = e all along a rod, δW = e·ΣF must vanish. ΣF, the sum of the dead forces, knows no shape. Follower forces
     R·F turn with the rod but keep their magnitudes, so that they balance no more than the sum of these. Turns are left
-    to the solver: a rod may swing to where the moments vanish.
+    to the solver: a rod may swing to where the moments vanish. So are rods that may touch something: it may hold them.
 
     Args:
         scene: Any scene.
@@ -35,7 +35,8 @@ def pushed_away(scene: Scene) -> tuple[str, ...]:
         One sentence a rod: what is free and the force along it, where that is first out of balance among the times at
         which tables have a row and the end.
     """
-    motions = {k: free for k in range(len(scene.rods)) if any(free := _free_axes(scene, k))}
+    loose = [k for k in range(len(scene.rods)) if not scene.may_touch(k)]
+    motions = {k: free for k in loose if any(free := _free_axes(scene, k))}
     if not motions:
         return ()
     t_end = scene.motion.t_end

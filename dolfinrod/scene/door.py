@@ -14,6 +14,8 @@ __all__ = ["admit"]
 def admit(scene: object, start: object, earlier: type) -> None:
     """Let in what a solver can begin with; in a Dynamic motion rods may be free, as their mass resists every push.
 
+    Rods that may touch something may be free as well: whether that holds them, the solver finds out.
+
     Args:
         scene: What is to be solved.
         start: Where to begin; None: stress free.

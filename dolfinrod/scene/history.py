@@ -7,11 +7,15 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from operator import itemgetter
+from typing import TYPE_CHECKING
 
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import entries, listed, number
 
-__all__ = ["History", "Line", "Steady", "factor", "history", "kinks", "slope"]
+if TYPE_CHECKING:
+    from dolfinrod.scene.scene import Scene
+
+__all__ = ["History", "Line", "Steady", "corners", "factor", "history", "kinks", "slope"]
 
 # Step of the difference quotient of a function, in t_end: truncation and round-off of five points are both 1e-13.
 STEP = 1e-3
@@ -107,6 +111,19 @@ def kinks(history: History) -> tuple[float, ...]:
     if history is None or isinstance(history, Steady) or callable(history):
         return ()
     return tuple(t for t, _ in history)
+
+
+def corners(scene: Scene) -> tuple[float, ...]:
+    """Times at which the rate of a load, of a prescribed motion or of a wall may jump, ascending.
+
+    Args:
+        scene: Any scene.
+
+    Returns:
+        Rows of all its tables, times outside the motion among them.
+    """
+    parts = (*scene.supports, *scene.loads, *scene.contacts)
+    return tuple(sorted({t for part in parts for t in kinks(getattr(part, "history", None))}))
 
 
 def slope(history: History, t: float, t_end: float) -> float:

@@ -11,6 +11,7 @@ from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineFo
 from dolfinrod.scene.quantity import VectorLike, assign, vector
 from dolfinrod.scene.shape import unit
 from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS, Prescribed, Support
+from dolfinrod.scene.symmetry import TOLERANCE, keeps_plane, normal_to, parallel, planes_through
 
 if TYPE_CHECKING:
     from dolfinrod.scene.rod import Rod
@@ -22,8 +23,6 @@ __all__ = ["Kinematics", "Planar", "Spatial", "detect", "obstacle"]
 
 # Places, as parts of a length, where a rod is asked how it moves: so unevenly that no wave has all its nodes there.
 PLACES = (1.0 - np.cos(np.linspace(0.0, np.pi, 65))) / 2.0
-# An angle out of the plane that is only round-off of the input [rad].
-TOLERANCE = 1e-10
 DEAD = PointForce | LineForce | Gravity
 
 
@@ -60,7 +59,7 @@ def detect(scene: Scene) -> Planar | Spatial:
 
     The normal of a plane must be a principal axis of every section; so d3 and then d2 of the first rod are tried, and
     where its section is the same in all directions, whatever plane its axis spans with a load, a prescribed motion, a
-    velocity at the start or the air. Air whose flow is a function is taken to lead out of every plane.
+    velocity at the start, the air or a surface. Air whose flow is a function is taken to lead out of every plane.
 
     Args:
         scene: Any scene.
@@ -99,9 +98,12 @@ def obstacle(scene: Scene, plane: Planar) -> str | None:
             return f"supports[{i}] couples motion in the plane with motion out of it"
     for i, velocity in enumerate(scene.velocities):
         v = _moved(scene, velocity)
-        if not _parallel(velocity.omega, N) or np.abs(v @ N).max() > TOLERANCE * np.abs(v).max():
+        if not parallel(velocity.omega, N) or np.abs(v @ N).max() > TOLERANCE * np.abs(v).max():
             return f"velocities[{i}] leads out of the plane"
-    if scene.air is not None and (callable(scene.air.field) or not _normal_to(scene.air.field, N)):
+    for i, contact in enumerate(scene.contacts):
+        if not keeps_plane(contact, N, origin):
+            return f"contacts[{i}] may lead out of the plane"
+    if scene.air is not None and (callable(scene.air.field) or not normal_to(scene.air.field, N)):
         return "air may flow out of the plane"
     return None
 
@@ -138,7 +140,8 @@ def _spanned(scene: Scene, d1: np.ndarray) -> list[np.ndarray]:
     moves += [max(_moved(scene, v), key=lambda v: float(np.linalg.norm(np.cross(d1, v)))) for v in scene.velocities]
     moves += [] if scene.air is None or callable(scene.air.field) else [scene.air.field]
     spins = [np.asarray(velocity.omega) for velocity in scene.velocities]
-    normals = [*(np.cross(d1, v) for v in [*forces, *moves]), *moments, *turns, *spins]
+    walls = [v for c in scene.contacts for v in planes_through(c, scene.rods[0].centerline(0.0), d1)]
+    normals = [*(np.cross(d1, v) for v in [*forces, *moves]), *moments, *turns, *spins, *walls]
     return [v / np.linalg.norm(v) for v in normals if np.linalg.norm(v) > 0.0]
 
 
@@ -151,13 +154,13 @@ def _moved(scene: Scene, velocity: Velocity) -> np.ndarray:
 def _load_fits(scene: Scene, load: Load, N: np.ndarray) -> bool:
     """Forces in the plane, moments along its normal; follower loads in the stress-free shape and so ever after."""
     if isinstance(load, PointMoment):
-        return _parallel(load.moment, N)
+        return parallel(load.moment, N)
     if isinstance(load, (FollowerForce, FollowerMoment)):
         frames = [scene.rods[k].frames(s) for k, s in scene.location(load.at, load.rod)]
         if isinstance(load, FollowerForce):
-            return all(_normal_to(R @ np.asarray(load.force), N) for R in frames)
-        return all(_parallel(R @ np.asarray(load.moment), N) for R in frames)
-    return _normal_to(load.g if isinstance(load, Gravity) else load.force, N)
+            return all(normal_to(R @ np.asarray(load.force), N) for R in frames)
+        return all(parallel(R @ np.asarray(load.moment), N) for R in frames)
+    return normal_to(load.g if isinstance(load, Gravity) else load.force, N)
 
 
 def _support_fits(support: Support, N: np.ndarray) -> bool:
@@ -171,12 +174,4 @@ def _support_fits(support: Support, N: np.ndarray) -> bool:
         return True
     moved = support.displacement or (0.0, 0.0, 0.0)
     shifted = [0.0 if u is None else u for u in moved]
-    return _normal_to(shifted, N) and (support.rotation is None or _parallel(support.rotation, N))
-
-
-def _normal_to(v: VectorLike, N: np.ndarray) -> bool:
-    return bool(abs(np.dot(v, N)) <= TOLERANCE * np.linalg.norm(v))
-
-
-def _parallel(v: VectorLike, N: np.ndarray) -> bool:
-    return bool(np.linalg.norm(np.cross(v, N)) <= TOLERANCE * np.linalg.norm(v))
+    return normal_to(shifted, N) and (support.rotation is None or parallel(support.rotation, N))

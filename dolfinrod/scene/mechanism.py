@@ -32,7 +32,8 @@ def free_motions(scene: Scene) -> tuple[str, ...]:
 
     Returns:
         One sentence a motion, such as "rods[0] is free to turn about (1, 0, 0)"; none where all is held. A free
-        motion need not be fatal: loads may hold a rod in equilibrium, as gravity holds a pendulum.
+        motion need not be fatal: loads may hold a rod in equilibrium, as gravity holds a pendulum, and so may what it
+        touches.
     """
     sentences = []
     for k in range(len(scene.rods)):
@@ -47,8 +48,8 @@ def free_motions(scene: Scene) -> tuple[str, ...]:
 def turned_away(scene: Scene) -> tuple[str, ...]:
     """Free turns of single resting rods that dead moments do work on in whatever shape.
 
-    With δθ = ω all along a rod, δW = ω·ΣM must vanish. Only rods that nothing but dead moments acts on are judged:
-    forces may find lever arms, and followers turn along.
+    With δθ = ω all along a rod, δW = ω·ΣM must vanish. Only rods that nothing but dead moments acts on, and that
+    have nothing to touch, are judged: forces may find lever arms, and followers turn along.
 
     Args:
         scene: Any scene.
@@ -62,7 +63,7 @@ def turned_away(scene: Scene) -> tuple[str, ...]:
     for k in range(len(scene.rods)):
         loads = [load for load in scene.loads if getattr(load, "rod", None) in (None, k)]
         moments = [load for load in loads if isinstance(load, PointMoment)]
-        if not moments or len(moments) < len(loads):
+        if not moments or len(moments) < len(loads) or scene.may_touch(k):
             continue
         axes = _span(_lasting(scene, k)[:, 3:])
         for t in (*sorted({t for load in moments for t in kinks(load.history) if 0.0 < t < t_end}), t_end):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
-from math import inf, isfinite, nan
+from math import hypot, inf, isfinite, nan
 from numbers import Integral, Real
 from typing import Any, Literal
 
@@ -34,6 +34,8 @@ __all__ = [
 Vector = tuple[float, float, float]
 VectorLike = Sequence[float] | NDArray[np.float64]
 Place = Literal["start", "end"] | float
+# Round-off of the length of a vector that was divided by its length: five roundings.
+UNIT = 5 * float(np.finfo(float).eps)
 
 
 def assign(record: object, **values: object) -> None:
@@ -103,11 +105,14 @@ def vector(value: object, field: str, unit: str = "") -> Vector:
 
 def direction(value: object, field: str) -> Vector:
     """A vector that is not zero, made one of length 1; arguments as `number`."""
-    v = np.asarray(vector(value, field))
+    x, y, z = vector(value, field)
+    v = np.array((x, y, z))
     size = float(np.abs(v).max())
     if size == 0.0:
         raise SceneError(f"must not be zero, got {value}", field=field)
-    x, y, z = (float(c) for c in v / size / np.linalg.norm(v / size))
+    # What this function has returned before keeps its digits.
+    if abs(hypot(x, y, z) - 1.0) > UNIT:
+        x, y, z = (float(c) for c in v / size / np.linalg.norm(v / size))
     return x, y, z
 
 

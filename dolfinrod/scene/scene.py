@@ -107,6 +107,10 @@ class Scene:
                 marks.append(s)
         return tuple(marks)
 
+    def may_touch(self, rod: int) -> bool:
+        """Whether there is anything for a rod to touch."""
+        return any(contact.rod in (None, rod) for contact in self.contacts)
+
     def _check_kinds(self) -> None:
         """Every entry is of the kind its place asks for."""
         kinds = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from inspect import Parameter, signature
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,7 @@ from dolfinrod.scene.errors import SceneError
 if TYPE_CHECKING:
     from dolfinrod.scene.fields import Field
 
-__all__ = ["Kind", "meant", "refuse_unknown"]
+__all__ = ["Choice", "Inner", "Kind", "meant", "refuse_unknown", "table_of"]
 
 # No name of a field is longer.
 MOST_CHARACTERS = 100
@@ -49,9 +49,7 @@ class Kind:
 
     def values(self, table: Any, path: str, known: Mapping[str, Any]) -> dict[str, Any]:
         """Arguments for `make`, all there and each in SI."""
-        if not isinstance(table, dict):
-            raise SceneError(f"must be a table, got {table!r}", field=path)
-        refuse_unknown(table, self.fields, path)
+        refuse_unknown(table_of(table, path), self.fields, path)
         parameters = signature(self.make).parameters.values()
         for name in (p.name for p in parameters if p.default is Parameter.empty):
             if name not in table and name not in known:
@@ -69,6 +67,75 @@ class Kind:
         """The table of these values; what is None is left out."""
         told = {name: value for name, value in values.items() if value is not None}
         return {name: self.fields[name].write(value, f"{path}.{name}") for name, value in told.items()}
+
+    def told(self, record: object, path: str) -> dict[str, Any]:
+        """The table of a record that has these fields."""
+        return self.write({name: getattr(record, name) for name in self.fields}, path)
+
+
+@dataclass(frozen=True)
+class Inner:
+    """A field that is a table itself.
+
+    Args:
+        kind: What it makes.
+    """
+
+    kind: Kind
+
+    def read(self, value: Any, path: str) -> Any:
+        """The record it describes."""
+        return self.kind.read(value, path)
+
+    def write(self, value: Any, path: str) -> dict[str, Any]:
+        """The table of the record."""
+        return self.kind.told(value, path)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A table that names one of several kinds and holds its table; or a word for a record that is known.
+
+    Args:
+        kinds: Each by its name.
+        words: What each makes.
+    """
+
+    kinds: Mapping[str, Kind]
+    words: Mapping[str, Callable[[], Any]] = field(default_factory=dict)
+
+    def read(self, value: Any, path: str) -> Any:
+        """The record that is described."""
+        if isinstance(value, str) and self.words:
+            if value not in self.words:
+                one_of = " or ".join(f'"{word}"' for word in self.words)
+                must = f"must be {one_of}, or a table that names one of {', '.join(self.kinds)}"
+                raise SceneError(f"{must}, got {value!r}{meant(value, self.words)}", field=path)
+            return self.words[value]()
+        kind, inner, path = self.chosen(value, path)
+        return kind.read(inner, path)
+
+    def write(self, value: Any, path: str) -> dict[str, Any]:
+        """The table that names the kind of a record and holds its table."""
+        ((name, kind),) = ((name, kind) for name, kind in self.kinds.items() if kind.make is type(value))
+        return {name: kind.told(value, f"{path}.{name}")}
+
+    def chosen(self, value: Any, path: str) -> tuple[Kind, Any, str]:
+        """The one kind that is named, what its table holds, and the path of that."""
+        table = table_of(value, path)
+        refuse_unknown(table, self.kinds, path)
+        if len(table) != 1:
+            got = ", ".join(table) or "none"
+            raise SceneError(f"must be one of {', '.join(self.kinds)}, got {got}", field=path)
+        ((name, inner),) = table.items()
+        return self.kinds[name], inner, f"{path}.{name}"
+
+
+def table_of(value: Any, path: str) -> dict[str, Any]:
+    """A table of TOML."""
+    if not isinstance(value, dict):
+        raise SceneError(f"must be a table, got {value!r}", field=path)
+    return value
 
 
 def refuse_unknown(table: Mapping[str, Any], known: Collection[str], path: str) -> None:

@@ -27,9 +27,15 @@
     [air]
     field = ["20 m/s", 0, 0]
 
+    [[contacts]]
+    cylinder = { point = [0, 0, "-25 mm"], axis = [0, 1, 0], radius = "25 mm" }
+    law.penalty = { eps_N = "4e5 N/m**2", g_0 = "1 um" }
+    friction.coulomb = { mu = 0.64 }
+
 Plain numbers are SI. A section is `circle`, `rectangle` or `ramie`, or has the fields of `Section` itself. A history is
 "steady" or rows [t, factor]; a displacement that is not prescribed is "free". Without a table `motion` the scene is
-static. The file of a rod `from_mesh` is sought from the folder of the scene file.
+static. The file of a rod `from_mesh` is sought from the folder of the scene file. The law of a contact may be "paper"
+or "tight" instead of a table; a table `motion` of its surface says how that moves.
 """
 
 from __future__ import annotations
@@ -41,9 +47,10 @@ from pathlib import Path
 from typing import Any
 
 from dolfinrod.scene import source
+from dolfinrod.scene.contact import Contact
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.fields import Specific
-from dolfinrod.scene.kinds import AIR, LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS, VELOCITIES
+from dolfinrod.scene.kinds import AIR, CONTACT, LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS, SURFACES, VELOCITIES
 from dolfinrod.scene.motion import Static
 from dolfinrod.scene.options import options
 from dolfinrod.scene.rod import Rod
@@ -51,11 +58,11 @@ from dolfinrod.scene.scene import MOST_PARTS, Scene
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import UniformCurvature
 from dolfinrod.scene.spline import Spline
-from dolfinrod.scene.tables import Kind, meant, refuse_unknown
+from dolfinrod.scene.tables import meant, refuse_unknown, table_of
 
 __all__ = ["dumps", "load", "loads"]
 
-TABLES = ("section", "rods", "supports", "loads", "air", "motion", "velocities", "solve")
+TABLES = ("section", "rods", "supports", "loads", "contacts", "air", "motion", "velocities", "solve")
 # The time of tomllib grows with the square of the names in a dotted key.
 NAME = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+"""
 ENDLESS_KEY = re.compile(rf"""(?<![\w"'-])(?:{NAME}\.[ \t]*+){{32}}""")
@@ -84,7 +91,7 @@ def loads(text: str, *, folder: str | Path = ".") -> tuple[Scene, dict[str, Any]
     try:
         data = _parsed(text)
         scene = _scene(data, Path(folder))
-        return scene, options(_table(data.get("solve", {}), "solve"), len(scene.rods))
+        return scene, options(table_of(data.get("solve", {}), "solve"), len(scene.rods))
     except RecursionError:
         raise SceneError("a scene must not nest lists and tables so deeply") from None
 
@@ -101,14 +108,15 @@ def _scene(data: Mapping[str, Any], folder: Path) -> Scene:
     """The scene that the tables of a file describe."""
     refuse_unknown(data, TABLES, "")
     sections = {
-        name: _section(table, f"section.{name}") for name, table in _table(data.get("section", {}), "section").items()
+        name: _section(table, f"section.{name}") for name, table in table_of(data.get("section", {}), "section").items()
     }
     return Scene(
         rods=[_rod(table, f"rods[{i}]", sections, folder) for i, table in enumerate(_list(data, "rods"))],
-        supports=[_one(SUPPORTS, table, f"supports[{i}]") for i, table in enumerate(_list(data, "supports"))],
-        loads=[_one(LOADS, table, f"loads[{i}]") for i, table in enumerate(_list(data, "loads"))],
+        supports=[SUPPORTS.read(table, f"supports[{i}]") for i, table in enumerate(_list(data, "supports"))],
+        loads=[LOADS.read(table, f"loads[{i}]") for i, table in enumerate(_list(data, "loads"))],
+        contacts=[_contact(table, f"contacts[{i}]") for i, table in enumerate(_list(data, "contacts"))],
         air=AIR.read(data["air"], "air") if "air" in data else None,
-        motion=_one(MOTIONS, data["motion"], "motion") if data.get("motion", {}) != {} else Static(),
+        motion=MOTIONS.read(data["motion"], "motion") if data.get("motion", {}) != {} else Static(),
         velocities=[VELOCITIES.read(table, f"velocities[{i}]") for i, table in enumerate(_list(data, "velocities"))],
     )
 
@@ -133,11 +141,15 @@ def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
     tables = {
         "section": {name: _stiffness(section, f"section.{name}") for section, name in names.items()},
         "rods": [_shape(rod, f"rods[{i}]") | {"section": names[rod.section]} for i, rod in enumerate(scene.rods)],
-        "supports": [_named(SUPPORTS, part, f"supports[{i}]") for i, part in enumerate(scene.supports)],
-        "loads": [_named(LOADS, part, f"loads[{i}]") for i, part in enumerate(scene.loads)],
-        "air": {} if scene.air is None else _written(AIR, scene.air, "air"),
-        "motion": _named(MOTIONS, scene.motion, "motion"),
-        "velocities": [_written(VELOCITIES, v, f"velocities[{i}]") for i, v in enumerate(scene.velocities)],
+        "supports": [SUPPORTS.write(part, f"supports[{i}]") for i, part in enumerate(scene.supports)],
+        "loads": [LOADS.write(part, f"loads[{i}]") for i, part in enumerate(scene.loads)],
+        "contacts": [
+            SURFACES.write(part.surface, f"contacts[{i}]") | CONTACT.told(part, f"contacts[{i}]")
+            for i, part in enumerate(scene.contacts)
+        ],
+        "air": {} if scene.air is None else AIR.told(scene.air, "air"),
+        "motion": MOTIONS.write(scene.motion, "motion"),
+        "velocities": [VELOCITIES.told(v, f"velocities[{i}]") for i, v in enumerate(scene.velocities)],
         "solve": dict(solve or {}),
     }
     return tomli_w.dumps({name: table for name, table in tables.items() if table})
@@ -145,12 +157,12 @@ def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
 
 def _section(table: Any, path: str) -> Section:
     """A section by shape and material, or by its stiffnesses."""
-    table = _table(table, path)
-    shapes = table.keys() & SECTIONS.keys()
+    table = table_of(table, path)
+    shapes = table.keys() & SECTIONS.kinds.keys()
     if not shapes:
         section: Section = SECTION.read(table, path)
         return section
-    kind, inner, path = _only(SECTIONS, table, path)
+    kind, inner, path = SECTIONS.chosen(table, path)
     values = kind.values(inner, path, {})
     for name, value in values.items():
         if isinstance(value, Specific):
@@ -163,7 +175,7 @@ def _section(table: Any, path: str) -> Section:
 
 def _rod(table: Any, path: str, sections: Mapping[str, Section], folder: Path) -> Rod:
     """A rod: its shape, and the name of its section; a mesh lies beside the scene file."""
-    shape = dict(_table(table, path))
+    shape = dict(table_of(table, path))
     if "section" not in shape:
         raise SceneError("is missing", field=f"{path}.section")
     name = shape.pop("section")
@@ -171,34 +183,21 @@ def _rod(table: Any, path: str, sections: Mapping[str, Section], folder: Path) -
         close = meant(name, sections) if isinstance(name, str) else ""
         message = f"must be the name of a section ({', '.join(sections)}), got {name!r}{close}"
         raise SceneError(message, field=f"{path}.section")
-    kind, inner, path = _only(RODS, shape, path)
-    if kind is RODS["from_mesh"] and isinstance(inner, dict) and isinstance(inner.get("file"), str):
+    kind, inner, path = RODS.chosen(shape, path)
+    if kind is RODS.kinds["from_mesh"] and isinstance(inner, dict) and isinstance(inner.get("file"), str):
         inner = inner | {"file": folder / inner["file"]}
     rod: Rod = kind.read(inner, path, section=sections[name])
     return rod
 
 
-def _one(kinds: Mapping[str, Kind], table: Any, path: str) -> Any:
-    """The record of a table that names one kind."""
-    kind, inner, path = _only(kinds, _table(table, path), path)
-    return kind.read(inner, path)
-
-
-def _only(kinds: Mapping[str, Kind], table: Mapping[str, Any], path: str) -> tuple[Kind, Any, str]:
-    """The one kind a table names, what it holds, and its path."""
-    refuse_unknown(table, kinds, path)
-    if len(table) != 1:
-        got = ", ".join(table) or "none"
-        raise SceneError(f"must be one of {', '.join(kinds)}, got {got}", field=path)
-    ((name, inner),) = table.items()
-    return kinds[name], inner, f"{path}.{name}"
-
-
-def _table(value: Any, path: str) -> dict[str, Any]:
-    """A table of TOML."""
-    if not isinstance(value, dict):
-        raise SceneError(f"must be a table, got {value!r}", field=path)
-    return value
+def _contact(table: Any, path: str) -> Contact:
+    """A contact: the surface its table names, and the laws beside it."""
+    table = table_of(table, path)
+    refuse_unknown(table, (*SURFACES.kinds, *CONTACT.fields), path)
+    laws = {name: table[name] for name in CONTACT.fields if name in table}
+    surface = SURFACES.read({name: table[name] for name in SURFACES.kinds if name in table}, path)
+    contact: Contact = CONTACT.read(laws, path, surface=surface)
+    return contact
 
 
 def _list(data: Mapping[str, Any], name: str) -> list[Any]:
@@ -211,22 +210,11 @@ def _list(data: Mapping[str, Any], name: str) -> list[Any]:
     return value
 
 
-def _written(kind: Kind, record: object, path: str) -> dict[str, Any]:
-    """The table of a record whose fields are those of its kind."""
-    return kind.write({name: getattr(record, name) for name in kind.fields}, path)
-
-
 def _stiffness(section: Section, path: str) -> dict[str, Any]:
     """The table of a section; what is rigid has no stiffness to tell."""
     untold = {name for strain, name in (("extension", "EA"), ("shear", "GA")) if strain in section.rigid}
     told = {name: getattr(section, name) for name in SECTION.fields if name not in untold}
     return SECTION.write(told | {"rigid": section.rigid or None}, path)
-
-
-def _named(kinds: Mapping[str, Kind], record: object, path: str) -> dict[str, Any]:
-    """The table that names the kind of a record and holds its table."""
-    ((name, kind),) = ((name, kind) for name, kind in kinds.items() if kind.make is type(record))
-    return {name: _written(kind, record, f"{path}.{name}")}
 
 
 def _shape(rod: Rod, path: str) -> dict[str, Any]:
@@ -242,4 +230,4 @@ def _shape(rod: Rod, path: str) -> dict[str, Any]:
         values |= {"points": shape.points, "d2": shape.d2}
     else:
         raise SceneError(f"must be a shape of this package to be written to a file, got {shape!r}", field=path)
-    return {name: RODS[name].write(values, f"{path}.{name}")}
+    return {name: RODS.kinds[name].write(values, f"{path}.{name}")}

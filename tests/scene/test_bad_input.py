@@ -203,7 +203,7 @@ FILES = [
     (file("point_force", "pointForce"), "; did you mean point_force?"),
     (
         file("[[rods]]", "[[rod]]"),
-        "rod is unknown; known are section, rods, supports, loads, air, motion, velocities, solve; did you",
+        "rod is unknown; known are section, rods, supports, loads, contacts, air, motion, velocities, solve; did you",
     ),
     (file('"ramie"\n', '"Ramie"\n'), "must be the name of a section (ramie), got 'Ramie'; did you mean ramie?"),
     (

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import dolfinrod as dr
-from dolfinrod.scene import Load, SceneError, Support, detect, obstacle
+from dolfinrod.scene import Load, SceneError, Support, Touch, detect, obstacle
 
 BEAM = dr.Section(EA=1.0, GA=1.0, GJ=1.0, EI=(1.0, 2.0), rhoA=1.0)
 ROD = dr.Rod.straight(1.0, BEAM)
@@ -224,3 +224,97 @@ def test_steady_air_keeps_a_plane_and_a_function_promises_none(field: object, no
     assert (np.abs(plane.normal) == normal).all() if isinstance(plane, dr.Planar) else normal is None
     if normal is None:
         assert obstacle(scene, dr.Planar((0, 0, 1), (0, 0, 0))) == "air may flow out of the plane"
+
+
+FLAT = dr.Planar((0, 0, 1), (0, 0, 0))
+ACROSS = {
+    "plane": dr.Plane(normal=(1, 2, 0)),
+    "core": dr.Cylinder((5, 5, 5), (0, 0, 1), 1.0),
+    "tube along the plane": dr.Cylinder((0, 1, 0), (1, 2, 0), 1.0, "inside"),
+    "core along the plane": dr.Cylinder((3, 1, 0), (-1, 0, 0), 0.01),
+    "groove": dr.Groove.v(0.3, 0.5, 1.0, point=(0, 1, 2), axis=(0, 0, -1), up=(0.6, 0.8, 0)),
+}
+ASKEW = {
+    "floor": dr.Plane(normal=(0, 0, 1)),
+    "slope": dr.Plane(normal=(0, 1, 1e-6)),
+    "core": dr.Cylinder((0, 0, 0), (0, 1e-6, 1), 1.0),
+    "tube above the plane": dr.Cylinder((0, 1, 1e-6), (1, 2, 0), 1.0, "inside"),
+    "groove along the plane": dr.Groove.v(0.3, 0.3, 1.0),
+    "groove across it": dr.Groove.v(0.3, 0.3, 1.0, axis=(0, 1e-6, 1), up=(0, 1, 0)),
+    "roller": dr.Groove.v(0.3, 0.3, 0.1, axis=(0, 0, 1), up=(0, 1, 0), roller=10.0),
+}
+WITHIN = {
+    "shift": dr.WallMotion((1, 2, 0), velocity=(-1, 0, 0)),
+    "turn": dr.WallMotion(rotation=(0, 0, 2), spin=(0, 0, -1), about=(3, 2, 1)),
+}
+WITHOUT = {
+    "shift": dr.WallMotion((1, 2, 1e-6)),
+    "drift": dr.WallMotion(velocity=(1, 2, 1e-6)),
+    "turn": dr.WallMotion(rotation=(1e-6, 0, 1)),
+    "spin": dr.WallMotion(spin=(1, 0, 0)),
+}
+
+
+def touching(*surfaces: object, rod: dr.Rod | None = None) -> dr.Scene:
+    return dr.Scene([rod or dr.Rod.straight(1.0, ROUND)], contacts=[dr.Contact(surface) for surface in surfaces])
+
+
+@pytest.mark.parametrize("motion", [None, *WITHIN.values()], ids=["rest", *WITHIN])
+@pytest.mark.parametrize("surface", ACROSS.values(), ids=ACROSS)
+def test_surfaces_that_a_mirror_leaves_alone_keep_the_plane(surface: object, motion: dr.WallMotion | None) -> None:
+    assert obstacle(touching(dr.Plane(normal=(0, 1, 0)), replace(surface, motion=motion)), FLAT) is None
+
+
+@pytest.mark.parametrize("friction", [dr.Coulomb(0.3), dr.CreepingCoulomb(0.3, 0.1)], ids=["coulomb", "creeping"])
+@pytest.mark.parametrize("motion", WITHIN.values(), ids=WITHIN)
+@pytest.mark.parametrize("surface", ACROSS.values(), ids=ACROSS)
+def test_nothing_pushes_points_out_of_a_plane_that_is_kept(surface: object, motion: object, friction: object) -> None:
+    rng = np.random.default_rng(1)
+    contact = dr.Contact(replace(surface, motion=motion), dr.Penalty(1e3, g_0=10.0), friction)
+    touch = Touch(contact, np.full(30, 0.1), 1.0)
+    x, move, turn = rng.normal(size=(3, 30, 3)) * np.array([[[3, 3, 0]], [[0.1, 0.1, 0]], [[0, 0, 0.3]]])
+    touch.place(x, 0.0)
+    touch.begin(0.1)
+    reply = touch.respond(x + move, turn)
+    assert reply.traction.any()
+    np.testing.assert_allclose(reply.force[:, 2], 0.0, atol=1e-12 * np.abs(reply.force).max())
+    np.testing.assert_allclose(reply.moment[:, :2], 0.0, atol=1e-12 * np.abs(reply.force).max())
+
+
+@pytest.mark.parametrize("surface", ASKEW.values(), ids=ASKEW)
+def test_other_surfaces_lead_out_of_it(surface: object) -> None:
+    words = "contacts[1] may lead out of the plane"
+    assert obstacle(touching(dr.Plane(normal=(0, 1, 0)), surface), FLAT) == words
+
+
+@pytest.mark.parametrize("motion", WITHOUT.values(), ids=WITHOUT)
+def test_so_do_walls_that_move_out_of_it(motion: dr.WallMotion) -> None:
+    assert (
+        obstacle(touching(dr.Plane(normal=(0, 1, 0), motion=motion)), FLAT) == "contacts[0] may lead out of the plane"
+    )
+
+
+@settings(max_examples=30)
+@given(turn=rotations, shift=st.tuples(*[st.floats(-5.0, 5.0)] * 3), name=st.sampled_from(sorted(ACROSS)))
+def test_a_round_rod_lives_in_the_plane_of_what_it_touches_wherever_that_lies(
+    turn: Rotation, shift: Vector, name: str
+) -> None:
+    surface = ACROSS[name]
+    fields = {"point": turn.apply(surface.point) + shift}
+    fields |= {v: turn.apply(getattr(surface, v)) for v in ("normal", "axis", "up") if hasattr(surface, v)}
+    # Transverse axes of the section that are those of no plane.
+    rod = dr.Rod.straight(1.0, ROUND, shift, turn.apply((1, 0, 0)), d2=turn.apply((0, 1, 0.3)))
+    plane = detect(touching(replace(surface, **fields), rod=rod))
+    assert isinstance(plane, dr.Planar)
+    np.testing.assert_allclose(np.abs(turn.inv().apply(plane.normal)), (0, 0, 1), atol=1e-12)
+
+
+def test_walls_that_move_choose_the_plane_of_a_round_rod() -> None:
+    rod = dr.Rod.straight(1.0, ROUND, d2=(0, 1, 0.3))
+    drawn, turned = dr.WallMotion(velocity=(0, 2, 1)), dr.WallMotion(spin=(0, 1, -2))
+    for wall in (dr.Plane(normal=(1, 0, 0), motion=drawn), dr.Plane(normal=(1, 0, 0), motion=turned)):
+        plane = detect(touching(wall, rod=rod))
+        assert isinstance(plane, dr.Planar)
+        np.testing.assert_allclose(np.abs(plane.normal), np.abs([0, 1, -2]) / np.sqrt(5), atol=1e-12)
+    both = [dr.Plane(normal=(1, 0, 0), motion=motion) for motion in (drawn, dr.WallMotion(velocity=(0, 1, 0)))]
+    assert detect(touching(*both, rod=rod)) == dr.Spatial()

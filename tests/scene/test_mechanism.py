@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,6 +12,8 @@ from scipy.spatial.transform import Rotation
 
 import discrete
 import dolfinrod as dr
+from dolfinrod.scene.advice import Findings, advice
+from dolfinrod.scene.door import admit
 from dolfinrod.scene.mechanism import free_motions
 
 SECTION = dr.Section(EA=1e4, GA=1e4, GJ=1.0, EI=1.0)
@@ -59,3 +63,44 @@ def test_a_failure_says_what_nothing_holds(solve):
     scene = dr.Scene([ROD], [], [dr.FollowerMoment((0, 1, 0), "end")])
     with pytest.raises(dr.NotConverged, match=r"Nothing holds the rods completely: rods\[0\] is held nowhere\. Try"):
         solve(scene, elements=4)
+
+
+@pytest.mark.parametrize("load", [dr.Gravity((0, 0, -1)), dr.PointMoment((1, 0, 0), "end")])
+def test_a_rod_that_may_touch_something_is_let_in_and_others_are_not(load):
+    loose = dr.Scene([TOUCHING, TOUCHING], loads=[load])
+    with pytest.raises(
+        dr.SceneError, match=r"^supports must hold the rods, or loads balance: rods\[0\] is free to .*rods\[1\]"
+    ):
+        admit(loose, None, dr.Result)
+    beside = replace(loose, contacts=[replace(FLOOR, rod=0)])
+    with pytest.raises(dr.SceneError, match=r"^supports must hold the rods, or loads balance: rods\[1\] is free to "):
+        admit(beside, None, dr.Result)
+    admit(replace(loose, contacts=[FLOOR]), None, dr.Result)
+
+
+FLOOR = dr.Contact(dr.Plane())
+TOUCHING = dr.Rod.straight(length=1.0, section=dr.Section(EA=1e4, GA=1e4, GJ=1.0, EI=1.0, rhoA=1.0, radius=0.01))
+
+
+def words(motion: dr.Static | dr.Dynamic, *contacts: dr.Contact, t: float = 0.5, clamped: bool = True) -> str:
+    supports = [dr.Clamp("start")] if clamped else []
+    return advice(dr.Scene([TOUCHING], supports, contacts=contacts, motion=motion), Findings(t=t))
+
+
+def test_where_rods_touch_softer_contact_is_advised() -> None:
+    softer = "contact that is softer (a smaller eps_N) or begins smoothly (SmoothPenalty)"
+    for motion in (dr.Static(), dr.Dynamic(1.0)):
+        assert softer in words(motion, FLOOR)
+        assert softer not in words(motion)
+    told = words(dr.Static(steps=5), FLOOR)
+    assert all(way in told for way in ("Static(steps=10)", "Dynamic motion", "more elements"))
+    assert words(dr.Static(steps=5)).startswith("The iteration did not settle. Try Static(steps=10), more elements, or")
+
+
+def test_a_rod_that_nothing_holds_may_be_begun_where_it_touches() -> None:
+    loose = words(dr.Static(), FLOOR, t=0.0, clamped=False)
+    assert (
+        "Likely a mechanism. Nothing holds the rods completely: rods[0] is held nowhere. Try more supports, to" in loose
+    )
+    assert "to begin where rods touch what holds them" in loose
+    assert words(dr.Static(), t=0.0, clamped=False).endswith("Try more supports")

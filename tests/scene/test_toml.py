@@ -133,6 +133,59 @@ def test_every_scene_that_moves_comes_back_equal(
     assert loads(dumps(scene)) == (scene, {})
 
 
+tables = histories | st.just(((0.0, 1.0), (0.5, -2.0)))
+moves = st.none() | st.builds(
+    lambda displacement, history, velocity, axis, about: dr.WallMotion(
+        displacement, axis, history, velocity, 3.0 * np.array(axis), about
+    ),
+    vectors,
+    tables,
+    vectors,
+    directions,
+    vectors,
+)
+profiles = st.lists(st.tuples(*[st.integers(-9, 9)] * 2), min_size=2, max_size=5, unique_by=lambda p: p[0]).map(sorted)
+upright = st.tuples(directions, directions).filter(
+    lambda pair: np.linalg.norm(np.cross(*pair)) > 1e-3 * np.linalg.norm(pair[0]) * np.linalg.norm(pair[1])
+)
+surfaces = st.one_of(
+    st.builds(dr.Plane, vectors, directions, moves),
+    st.builds(dr.Cylinder, vectors, directions, positive, st.sampled_from(["outside", "inside"]), moves),
+    st.builds(
+        lambda profile, point, pair, motion: dr.Groove(profile, point, *pair, motion=motion),
+        profiles,
+        vectors,
+        upright,
+        moves,
+    ),
+    st.builds(
+        lambda roller, fillet: dr.Groove(
+            [(-3, 0), (-1, 0), (0.1, -1.1), (1.2, 0), (3, 0)], fillet=fillet, roller=roller
+        ),
+        st.none() | st.floats(2.0, 1e6),
+        st.floats(0.0, 0.1),
+    ),
+)
+laws = st.one_of(
+    st.builds(dr.Penalty, positive, numbers),
+    st.builds(dr.SmoothPenalty, positive, positive, numbers),
+    st.builds(dr.AugmentedLagrangian, positive, positive),
+)
+frictions = st.one_of(
+    st.none(),
+    st.builds(dr.Coulomb, st.floats(0.0, 9.0), st.none() | positive),
+    st.builds(dr.CreepingCoulomb, st.floats(0.0, 9.0), positive),
+)
+contacts = st.builds(dr.Contact, surfaces, laws, frictions, which)
+
+
+@settings(max_examples=50, deadline=None)
+@given(rods=st.lists(round_rods, min_size=1, max_size=2), touched=st.lists(contacts, min_size=1, max_size=3))
+def test_every_contact_comes_back_equal(rods: list[dr.Rod], touched: list[dr.Contact]) -> None:
+    scene = dr.Scene(rods, contacts=touched, motion=dr.Dynamic(1.0))
+    assert loads(dumps(scene)) == (scene, {})
+
+
 def test_the_complete_scene_file_is_the_scene_of_the_python_example() -> None:
     scene, options = loads(COMPLETE)
     ramie = dr.Section.circle(diameter=20e-6, E=34.25884e9, G=1.63548e9, density=1540.0)
@@ -338,6 +391,140 @@ def test_a_motion_that_cannot_be_is_refused_by_field(old: str, new: str, message
         loads(MOVING.replace(old, new))
 
 
+TOUCHING = """
+[section.fibre.ramie]
+
+[[rods]]
+straight = { length = "40 mm" }
+section = "fibre"
+
+[[rods]]
+straight = { length = "40 mm", start = [0, "1 mm", 0] }
+section = "fibre"
+
+[[contacts]]
+cylinder = { point = [0, 0, "-25 mm"], axis = [0, 1, 0], radius = "25 mm", side = "outside" }
+law.penalty = { eps_N = "4e5 N/m**2", g_0 = "1 um" }
+friction.coulomb = { mu = 0.64, eps_T = "2e5 Pa" }
+
+[[contacts]]
+law = "tight"
+rod = 1
+[contacts.plane]
+point = [0, 0, "-1 mm"]
+normal = [0, 0, 2]
+[contacts.plane.motion]
+displacement = [0, 0, "1 mm"]
+rotation = [0, "0.5 turn", 0]
+history = [[0, 0], [0.5, 1]]
+velocity = ["1 mm/s", 0, 0]
+spin = [0, "0.1 rad/s", 0]
+about = ["2 cm", 0, 0]
+
+[[contacts]]
+law.smooth_penalty = { eps_N = "20 kPa", foot = "10 um", g_0 = "75 um" }
+friction.creeping_coulomb = { mu = 0.3, v_0 = "1 mm/s" }
+[contacts.groove]
+profile = [["-6 mm", 0], ["-1.5 mm", 0], [0, "-0.402 mm"], ["1.5 mm", 0], ["6 mm", 0]]
+point = [0, 0, "-1 cm"]
+axis = [1, 0, 0]
+up = [0, 0, 1]
+fillet = "0.15 mm"
+roller = "25 mm"
+
+[[contacts]]
+plane = {}
+law.augmented_lagrangian = { eps_N = "4e5 Pa", tolerance = "1 nm" }
+
+[[contacts]]
+plane = {}
+law = "paper"
+
+[motion.dynamic]
+t_end = "1 s"
+"""
+
+
+def test_contacts_read_as_in_python() -> None:
+    scene, _ = loads(TOUCHING)
+    core = dr.Cylinder((0, 0, -0.025), (0, 1, 0), 0.025)
+    pushed = dr.WallMotion((0, 0, 1e-3), (0, np.pi, 0), [(0, 0), (0.5, 1)], (1e-3, 0, 0), (0, 0.1, 0), (0.02, 0, 0))
+    profile = [(-6e-3, 0), (-1.5e-3, 0), (0, -0.402e-3), (1.5e-3, 0), (6e-3, 0)]
+    groove = dr.Groove(profile, (0, 0, -0.01), (1, 0, 0), (0, 0, 1), fillet=0.15e-3, roller=0.025)
+    assert scene.contacts == (
+        dr.Contact(core, dr.Penalty(4e5, 1e-6), dr.Coulomb(0.64, 2e5)),
+        dr.Contact(dr.Plane((0, 0, -1e-3), (0, 0, 1), pushed), dr.Penalty.tight(), rod=1),
+        dr.Contact(groove, dr.SmoothPenalty(2e4, 1e-5, 75e-6), dr.CreepingCoulomb(0.3, 1e-3)),
+        dr.Contact(dr.Plane(), dr.AugmentedLagrangian(4e5, 1e-9)),
+        dr.Contact(dr.Plane(), dr.Penalty.paper()),
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "cylinder = {",
+            "cilinder = {",
+            r"^contacts\[0\]\.cilinder is unknown; known are plane, cylinder, groove, law, friction, rod; did you",
+        ),
+        ('point = [0, 0, "-1 mm"]', "at = 0", r"^contacts\[1\]\.plane\.at is unknown; known are point, normal, motion"),
+        ("[contacts.groove]", "[contacts.other]", r"^contacts\[2\]\.other is unknown; known are plane, cylinder, gr"),
+        ("plane = {}", "", r"^contacts\[3\] must be one of plane, cylinder, groove, got none$"),
+        (
+            "plane = {}",
+            "plane = {}\ncylinder = {}",
+            r"^contacts\[3\] must be one of plane, cylinder, groove, got plane, cylinder$",
+        ),
+        ("plane = {}", "plane = 0", r"^contacts\[3\]\.plane must be a table, got 0$"),
+        ('radius = "25 mm", ', "", r"^contacts\[0\]\.cylinder\.radius is missing$"),
+        ('"outside"', '"top"', r'^contacts\[0\]\.cylinder\.side must be "outside" or "inside", got \'top\'$'),
+        (
+            '"4e5 N/m**2"',
+            '"4e5 N/m"',
+            r"^contacts\[0\]\.law\.penalty\.eps_N must be a quantity in N/m\*\*2, got '4e5 N/m'",
+        ),
+        ('"4e5 N/m**2"', "0", r"^contacts\[0\]\.law\.penalty\.eps_N must be positive, got 0\.0 N/m²$"),
+        (
+            '"tight"',
+            '"tigth"',
+            r"^contacts\[1\]\.law must be .* or a table that names one of penalty, .*'tigth'; did you mean tight\?$",
+        ),
+        ('"tight"', "4e5", r"^contacts\[1\]\.law must be a table, got 400000\.0$"),
+        ("law.penalty", "law.penality", r"^contacts\[0\]\.law\.penality is unknown; .* did you mean penalty\?$"),
+        (
+            "friction.coulomb",
+            "friction.columb",
+            r"^contacts\[0\]\.friction\.columb is unknown; .* did you mean coulomb\?$",
+        ),
+        ("mu = 0.64, ", "", r"^contacts\[0\]\.friction\.coulomb\.mu is missing$"),
+        ("mu = 0.64", "mu = -0.64", r"^contacts\[0\]\.friction\.coulomb\.mu must not be negative, got -0\.64$"),
+        ("rod = 1", "rod = 2", r"^contacts\[1\]\.rod must be below 2, the number of rods, got 2$"),
+        (
+            "0.5 turn",
+            "0.5 mm",
+            r"^contacts\[1\]\.plane\.motion\.rotation\[1\] must be a quantity in rad, got '0\.5 mm'",
+        ),
+        ("[0, 0, 2]", "[0, 0, 0]", r"^contacts\[1\]\.plane\.normal must not be zero, got"),
+        (
+            'spin = [0, "0.1 rad/s", 0]',
+            "spin = [1, 0, 0]",
+            r"^contacts\[1\]\.plane\.motion\.spin must be along rotation",
+        ),
+        (
+            '[motion.dynamic]\nt_end = "1 s"',
+            "",
+            r"^contacts\[2\]\.friction must not be CreepingCoulomb, since motion is",
+        ),
+        ("[[contacts]]", "[contacts]", r"^a scene must be a TOML file: "),
+    ],
+)
+def test_a_contact_that_cannot_be_is_refused_by_field(old: str, new: str, message: str) -> None:
+    assert old in TOUCHING
+    with pytest.raises(SceneError, match=message):
+        loads(TOUCHING.replace(old, new, 1))
+
+
 def leaves(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
     """Paths of all plain values in nested tables and lists."""
     if isinstance(value, dict | list):
@@ -348,7 +535,8 @@ def leaves(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 
 DATA = tomllib.loads(EVERY_KIND + "[solve]\nelements = [4, 4, 4]\ndegree = 3\nkinematics = 'planar'")
 TIMES = tomllib.loads(MOVING)
-EVERY_FIELD = [(data, path) for data in (DATA, TIMES) for path in leaves(data)]
+TOUCHED = tomllib.loads(TOUCHING)
+EVERY_FIELD = [(data, path) for data in (DATA, TIMES, TOUCHED) for path in leaves(data)]
 
 
 @pytest.mark.parametrize("wrong", [{"a": 1}, "absurd", nan, date(1979, 5, 27), [[[]]], "9 lightyear**9"])
@@ -394,7 +582,7 @@ def test_a_function_of_time_cannot_be_written() -> None:
         (
             "[solve]",
             "[resolve]",
-            r"^resolve is unknown; known are section, rods, supports, loads, air, motion, velocities, solve",
+            r"^resolve is unknown; known are section, rods, supports, loads, contacts, air, motion, vel",
         ),
         (
             'at = "end", force',

@@ -9,11 +9,14 @@ from numpy.typing import NDArray
 
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.history import History, factor, history
-from dolfinrod.scene.quantity import VectorLike, assign, vector
+from dolfinrod.scene.quantity import VectorLike, assign, direction, vector
 
 __all__ = ["REST", "Pose", "WallMotion", "moving"]
 
 Array = NDArray[np.float64]
+
+# An angle between axes that is only round-off of the input [rad].
+SAME_AXIS = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +72,7 @@ class WallMotion:
         units = {"displacement": "m", "rotation": "rad", "velocity": "m/s", "spin": "rad/s", "about": "m"}
         vectors = {name: vector(getattr(self, name), f"WallMotion.{name}", unit) for name, unit in units.items()}
         assign(self, history=history(self.history, "WallMotion.history"), **vectors)
-        if np.cross(self.rotation, self.spin).any():
+        if not _along(self.rotation, self.spin):
             raise SceneError(
                 f"must be along rotation {self.rotation} rad, got {self.spin} rad/s", field="WallMotion.spin"
             )
@@ -103,6 +106,13 @@ def moving(value: object, field: str) -> WallMotion | None:
     if value is None or isinstance(value, WallMotion):
         return value
     raise SceneError(f"must be WallMotion or None, got {quoted(value)}", field=field)
+
+
+def _along(a: VectorLike, b: VectorLike) -> bool:
+    """Whether one vector is along the other, either way; zero is along every one."""
+    if not any(a) or not any(b):
+        return True
+    return bool(np.linalg.norm(np.cross(direction(a, ""), direction(b, ""))) <= SAME_AXIS)
 
 
 def _exponential(θ: Array) -> Array:
