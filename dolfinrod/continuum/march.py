@@ -211,7 +211,9 @@ def targets(scene: Scene, times: Dynamic) -> list[float]:
     end, dt = times.t_end, times.dt
     n = 1 if dt is None else int(np.ceil(end / dt * (1.0 - SAME)))
     even = end * (np.arange(1, n + 1) / n)
-    corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
+    corners = [
+        t for part in (*scene.supports, *scene.loads, *scene.contacts) for t in kinks(getattr(part, "history", None))
+    ]
     stored = outputs(times)
     met = np.unique(np.concatenate([even, corners, [] if stored is None else stored]))
     met = met[(met > 0.0) & (met <= end)]

@@ -177,6 +177,8 @@ def equilibrium(newton: Newton, phase: PhaseCondition, last: NDArray[np.float64]
     if not phase.needed:
         return newton.solve(last)
     phase.hold()
+    if newton.problem.contacts is not None:
+        phase.hold_null(newton.tangent())
     found = newton.solve(last)
     while found.converged and phase.drop_pushed():
         again = newton.solve()

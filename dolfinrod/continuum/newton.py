@@ -8,7 +8,7 @@ No residual line search: on the way to equilibrium the residual has to grow.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from mpi4py import MPI
@@ -34,6 +34,10 @@ TOLERANCE = 1e-9
 NEGLIGIBLE = 1e-13
 # Iterations after which a load step is given up; a rod that winds up five turns takes about twenty.
 MOST_ITERATIONS = 50
+
+# Renewals of the multipliers of contact after which a step is given up.
+MOST_RENEWALS = 50
+PENETRATES = "penetrations stayed above the tolerance of an augmented Lagrangian: its eps_N is too small for these rods"
 
 LOST = PETSc.SNES.ConvergedReason.DIVERGED_DTOL
 SINGULAR = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
@@ -114,6 +118,18 @@ class Newton:
         Args:
             last: The equilibrium on this rank that the state was extrapolated from; None: it is one itself.
         """
+        found = self._found(last)
+        contacts, renewals = self.problem.contacts, 0
+        while contacts is not None and found.converged and not contacts.renew():
+            renewals += 1
+            again = self._found(None)
+            found = replace(again, iterations=found.iterations + again.iterations, strayed=found.strayed)
+            if renewals == MOST_RENEWALS:
+                return replace(found, converged=False, reason=PENETRATES)
+        return found
+
+    def _found(self, last: NDArray[np.float64] | None) -> Outcome:
+        """Equilibrium with the multipliers of contact as they are."""
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
         self._watch = self._watched(last)
@@ -142,6 +158,11 @@ class Newton:
         if self._lu is not None and self._lu.singular:
             return SINGULAR
         return int(self.snes.getConvergedReason())
+
+    def tangent(self) -> PETSc.Mat:
+        """The tangent at the problem's state."""
+        self.problem.assemble_tangent(self._A)
+        return self._A
 
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together: the garbage collector would do it on each at its own time."""
@@ -196,7 +217,12 @@ class Newton:
 
     def _settled(self) -> bool:
         """Whether no further increment matters."""
-        return self._size < TOLERANCE or self._next < NEGLIGIBLE
+        return (self._size < TOLERANCE or self._next < NEGLIGIBLE) and not self._touches_anew
+
+    @property
+    def _touches_anew(self) -> bool:
+        """Whether the last increment has changed what touches, sticks or slides: the tangent was of something else."""
+        return self.problem.contacts is not None and self._size > NEGLIGIBLE and self.problem.contacts.changed
 
     def _largest(self, *values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Largest of each array of magnitudes, over all ranks; a rank may have none."""

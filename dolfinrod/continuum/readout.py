@@ -9,12 +9,14 @@ import numpy as np
 
 from dolfinrod.continuum import reference
 from dolfinrod.continuum.recovery import Sections
+from dolfinrod.continuum.touched import contact_histories
 from dolfinrod.result import RodHistory
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.problem import Problem
+    from dolfinrod.result import ContactHistory
 
 __all__ = ["Readout"]
 
@@ -58,13 +60,20 @@ class Readout:
         fields = {field: x[dofs] for field, dofs in d.dofs.items()}
         if d.excess is not None and any(rod.section.damping for rod in self.problem.scene.rods):
             fields |= {f"{f}_viscous": d.excess.resultants[d.dofs[f]] for f in ("N", "m")}
-        return self.gather(nodal=nodal, **fields)
+        return self.gather(nodal=nodal, **fields) | self.touched()
+
+    def touched(self) -> State:
+        """What the nodes remember of contacts, if there are any."""
+        contacts = self.problem.contacts
+        return {} if contacts is None else self.gather(touch=contacts.kept())
 
     def restore(self, state: State) -> None:
         """Make a gathered state the current one."""
         d = self.problem.discretization
         for field, dofs in d.dofs.items():
             self.problem.x[dofs] = state[field][d.cell]
+        if self.problem.contacts is not None and "touch" in state:
+            self.problem.contacts.recall(state["touch"][d.cell])
 
     def energy(self) -> float:
         """Strain energy ∫ ½ n·C_n n + ½ m·C_m m ds at the current state [J]."""
@@ -88,6 +97,17 @@ class Readout:
         return tuple(
             self._history(rod, slice(a, b), s[a:b], R_0[a:b], stacked) for rod, (a, b) in enumerate(pairwise(first))
         )
+
+    def contacts(self, states: list[State]) -> tuple[ContactHistory, ...]:
+        """One history a contact from the gathered states."""
+        p = self.problem
+        if p.contacts is None:
+            return ()
+        shares = self.gather(share=p.contacts.shares()[:, self._order, None])["share"]
+        touched = np.stack([state["touch"] for state in states])[:, :, self._order]
+        first = list(pairwise(np.concatenate([[0], np.cumsum(p.discretization.elements)])))
+        of_rods = [_joined(shares[None, a:b])[0, :, 0] for a, b in first], [_joined(touched[:, a:b]) for a, b in first]
+        return contact_histories(p.scene.contacts, self.histories(states), *of_rods)
 
     def rates(self, states: list[State], second: float) -> tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...]:
         """Velocity [m/s] and spin [rad/s] of the nodes of each rod in space, from gathered states that hold them."""

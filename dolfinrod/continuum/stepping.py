@@ -118,7 +118,9 @@ def targets(scene: Scene, t_0: float, until: float = np.inf) -> list[float]:
     end = min(until, motion.t_end)
     steps = 1 if isinstance(motion, Dynamic) else motion.steps or 1
     even = np.arange(1, steps + 1) / steps * motion.t_end
-    corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
+    corners = [
+        t for part in (*scene.supports, *scene.loads, *scene.contacts) for t in kinks(getattr(part, "history", None))
+    ]
     return sorted({float(t) for t in (*even, *corners, end) if t_0 < t <= end})
 
 
@@ -147,7 +149,11 @@ class Walk:
         self.path, self._progress = path, progress
         self._stride = Stride()
         scene = newton.problem.scene
-        self._corners = {t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))}
+        self._corners = {
+            t
+            for part in (*scene.supports, *scene.loads, *scene.contacts)
+            for t in kinks(getattr(part, "history", None))
+        }
 
     def run(self, until: float = np.inf) -> None:
         """Meet every target up to a pseudo-time.
@@ -214,11 +220,14 @@ class Walk:
         """The last state, and what led to it once more, times a factor."""
         before, last = self.path.states[-2:]
         turn = self.newton.problem.kinematics.extrapolated
-        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in last if f != "q"}
+        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in last if f not in ("q", "touch")}
         return beyond | {"q": turn(before["q"], last["q"], factor)}
 
     def _accept(self, t: float, outcome: Outcome, state: State, verdict: Verdict) -> None:
-        path = self.path
+        path, contacts = self.path, self.newton.problem.contacts
+        if contacts is not None:
+            contacts.accept()
+            state |= self._readout.touched()
         path.t.append(t)
         path.states.append(state)
         path.energy.append(self._readout.energy())

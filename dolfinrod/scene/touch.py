@@ -26,6 +26,9 @@ __all__ = ["Touch"]
 
 Array = NDArray[np.float64]
 
+# Distance from touching, in radii, that is round-off.
+GRAZING = 1e-9
+
 
 class Touch:
     """Points of rods against one surface.
@@ -44,22 +47,28 @@ class Touch:
         if isinstance(self._friction, Coulomb) and self._friction.eps_T is not None:
             self._ε_T = self._friction.eps_T
         n = len(radius)
-        self._λ, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
+        self._λ_0, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
         self._state = np.zeros(n, dtype=np.int8)
         self.changed = False
+
+    @property
+    def turns(self) -> bool:
+        """Whether what acts, and its moment, depends on how the sections turn."""
+        return isinstance(self._friction, Coulomb)
 
     def place(self, x: Array, t: float) -> None:
         """The rods are at x; nothing is remembered."""
         self._t_0 = t
         self._x_0, self._X_0 = x.copy(), self._pose(t).back(x)
         self._gap_0 = self._law_gap(self._X_0)
-        for memory in (self._λ, self._slip, self._u):
+        for memory in (self._λ_0, self._slip, self._u):
             memory[:] = 0.0
         self._state[:] = OPEN
         self.begin(t)
 
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
+        self._λ = self._λ_0.copy()
         self._t, self._dt = t, t - self._t_0
         start, self._end, middle = (self._pose(s) for s in (self._t_0, t, self._t_0 + self._level * self._dt))
         self._acting, self._start = middle, start
@@ -90,10 +99,11 @@ class Touch:
         pressure, normal, traction, moment = np.zeros(n), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros((n, 3))
         state = np.zeros(n, dtype=np.int8)
         pressed, on = step.pressed, step.on
-        pressure[on], normal[on], state[on] = pressed.p, pressed.n @ Q.T, SLIDES
+        pressure[on], normal[on] = pressed.p, pressed.n @ Q.T
+        state[on] = np.where(pressed.p > 0.0, SLIDES, OPEN)
         if step.rubbing is not None:
             t = step.rubbing.traction
-            state[on] = np.where(step.rubbing.slides, SLIDES, STICKS)
+            state[on] = np.where(pressed.p > 0.0, np.where(step.rubbing.slides, SLIDES, STICKS), OPEN)
             traction[on] = t @ Q.T
             moment[on] = -pressed.radius[:, None] * np.cross(pressed.n, t) @ Q.T
         elif isinstance(self._friction, CreepingCoulomb):
@@ -113,7 +123,10 @@ class Touch:
         else:
             p, slope = self._law.mean(self._gap_0, gap, self._λ)
             closest = self.contact.surface.closest((1.0 - self._level) * self._X_0 + self._level * X)
-        on = np.flatnonzero(p > 0.0)
+        # What just touches is about to be pressed: without its stiffness a rod that lies on a wall would be free.
+        grazes = (p == 0.0) & (np.abs(gap - self._law.g_0) <= GRAZING * self._radius)
+        slope = np.where(grazes, -self._law.eps_N, slope)
+        on = np.flatnonzero((p > 0.0) | grazes)
         pressed = Pressed(
             p[on],
             slope[on, None] * at_end[on],
@@ -197,6 +210,7 @@ class Touch:
             rubbed = -np.einsum("ni,ni->n", reply.traction, moved)
         held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
         self._x_0, self._X_0, self._gap_0, self._t_0 = self._x, step.X, step.gap, self._t
+        self._λ_0 = self._λ.copy()
         return Booked(self._law.energy(step.gap, self._λ) + held, rubbed - held, pushed)
 
     def memory(self) -> dict[str, Array]:
@@ -204,7 +218,7 @@ class Touch:
         return {
             "x": self._x_0.copy(),
             "anchored": self._u.copy(),
-            "multiplier": self._λ.copy(),
+            "multiplier": self._λ_0.copy(),
             "slip": self._slip.copy(),
             "state": self._state.astype(float),
         }
@@ -212,5 +226,5 @@ class Touch:
     def recall(self, memory: Mapping[str, Array], t: float) -> None:
         """Go back, or on, to what was remembered at time t."""
         self.place(memory["x"], t)
-        self._u, self._λ, self._slip = (memory[name].copy() for name in ("anchored", "multiplier", "slip"))
-        self._state = memory["state"].astype(np.int8)
+        self._u, self._λ_0, self._slip = (memory[name].copy() for name in ("anchored", "multiplier", "slip"))
+        self._λ, self._state = self._λ_0.copy(), memory["state"].astype(np.int8)
