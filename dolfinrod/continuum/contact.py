@@ -14,7 +14,8 @@ import numpy as np
 
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.lumped import node_lengths
-from dolfinrod.scene import AugmentedLagrangian, Touch
+from dolfinrod.continuum.touched import COLUMNS, FELT, MEMORY
+from dolfinrod.scene import Touch
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,33 +23,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.problem import Problem
-    from dolfinrod.scene import Scene
     from dolfinrod.scene.reply import Reply
 
     Array = NDArray[np.float64]
+    Memory = tuple[float, Array, list[tuple[dict[str, Array], Reply]]]
     Block = tuple[NDArray[np.int32], NDArray[np.int32], Array]
 
-__all__ = ["COLUMNS", "Contacts", "contact_terms", "remembers", "rubs"]
-
-# What a node remembers of each contact, and what it feels there, with the number of components.
-MEMORY = {"x": 3, "anchored": 3, "multiplier": 1, "slip": 1, "state": 1}
-FELT = {"gap": 1, "pressure": 1, "normal": 3, "traction": 3}
-COLUMNS = {"t": 1, **MEMORY, **FELT}
-
-
-def rubs(scene: Scene) -> bool:
-    """Whether anything in a scene resists sliding."""
-    return any(contact.friction is not None for contact in scene.contacts)
-
-
-def remembers(scene: Scene) -> bool:
-    """Whether contact forces depend on more than where the rods are."""
-    return rubs(scene) or any(isinstance(contact.law, AugmentedLagrangian) for contact in scene.contacts)
-
-
-def contact_terms(scene: Scene) -> tuple[str, ...]:
-    """What contact adds to the balance of a scene, in words."""
-    return (*(("Contact",) if scene.contacts else ()), *(("Friction",) if rubs(scene) else ()))
+__all__ = ["Contacts", "Memory"]
 
 
 class _Side:
@@ -187,14 +168,31 @@ class Contacts:
         done = [side.touch.renew() for side in self._sides]
         return bool(self._problem.discretization.comm.allreduce(all(done), op=MPI.LAND))
 
-    def accept(self) -> Array:
-        """The step counts; energies that this rank's nodes store, have rubbed off and were given by walls, in EI/L."""
+    def accept(self) -> list[float]:
+        """The step counts; energies that this rank's nodes have rubbed off and were given by walls, in EI/L."""
         self._respond()
-        self._q_0, total = self._problem.x[self.q], np.zeros(3)
+        self._q_0, total = self._problem.x[self.q], np.zeros(2)
         for side in self._sides:
             booked = side.touch.accept()
-            total += [float(side.share[:, 0] @ part) for part in (booked.stored, booked.rubbed, booked.pushed)]
+            total += [float(side.share[:, 0] @ part) for part in (booked.rubbed, booked.pushed)]
+        return [float(part) / self._problem.placement.moment for part in total]
+
+    def stored(self) -> float:
+        """Energy that this rank's nodes store, in EI/L."""
+        total = sum(float(side.share[:, 0] @ side.touch.stored()) for side in self._sides)
         return total / self._problem.placement.moment
+
+    def memory(self) -> Memory:
+        """What this rank's nodes remember."""
+        return self.t, self._q_0, [(side.touch.memory(), side.reply) for side in self._sides]
+
+    def take_back(self, memory: Memory) -> None:
+        """Be what `memory` said earlier."""
+        self.t, self._q_0, sides = memory
+        self._seen = None
+        for side, (remembered, reply) in zip(self._sides, sides, strict=True):
+            side.touch.recall(remembered, self.t)
+            side.reply = reply
 
     def kept(self) -> Array:
         """What the nodes remember and feel, by local cell, shape (cells, k + 1, contacts · n_columns)."""

@@ -11,6 +11,7 @@ from dolfinrod.continuum.ledger import Ledger
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.pace import Pace
 from dolfinrod.continuum.predictor import Predictor
+from dolfinrod.continuum.restart import rates
 from dolfinrod.continuum.stepping import StepFailed
 from dolfinrod.continuum.trajectory import Mark, Trajectory
 from dolfinrod.result import StepLog
@@ -182,7 +183,7 @@ class March:
 
     def state(self) -> State:
         """Gathered state with velocities "v" and spins "omega", and the couples of sections that have inertia."""
-        state = self.readout.state() | self.problem.rates(self.readout)
+        state = self.readout.state() | rates(self.problem, self.readout)
         if self._couples is not None:
             state |= self.readout.gather(couples=self._couples.rates())
         return state
@@ -192,7 +193,9 @@ class March:
         count = len(kept.t), len(kept.log), kept.iterations
         excess = problem.discretization.excess
         strained = None if excess is None else excess.step()
-        self.mark = Mark(t, problem.x.copy(), problem.motion, self._pace.length, self.ledger.now(), *count, strained)
+        touched = None if problem.contacts is None else problem.contacts.memory()
+        now = problem.x.copy(), problem.motion, self._pace.length, self.ledger.now()
+        self.mark = Mark(t, *now, *count, strained, touched)
 
     def _rewind(self) -> None:
         """Forget what came after the mark."""
@@ -201,6 +204,8 @@ class March:
         self.problem.motion, self._pace.length = mark.motion, mark.length
         if mark.strained is not None and self.problem.discretization.excess is not None:
             self.problem.discretization.excess.after(mark.strained)
+        if mark.touched is not None and self.problem.contacts is not None:
+            self.problem.contacts.take_back(mark.touched)
         del kept.t[mark.stored :], kept.states[mark.stored :], kept.log[mark.steps :]
         kept.iterations = mark.iterations
         self.ledger.rewind(mark.energy, mark.stored)

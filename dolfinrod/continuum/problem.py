@@ -10,11 +10,12 @@ import numpy as np
 
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.constraints import Constraints
-from dolfinrod.continuum.contact import Contacts, contact_terms
+from dolfinrod.continuum.contact import Contacts
 from dolfinrod.continuum.discretization import Discretization, Values
 from dolfinrod.continuum.layout import Layout
 from dolfinrod.continuum.loading import line_loads, point_terms
 from dolfinrod.continuum.placement import exact_zeros
+from dolfinrod.continuum.rubbing import contact_terms
 from dolfinrod.scene.history import factor
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ from mpi4py import MPI
 
 import numpy as np
 
-from dolfinrod.continuum.contact import remembers, rubs
 from dolfinrod.continuum.dynamics import move
 from dolfinrod.continuum.failure import findings
 from dolfinrod.continuum.keeper import Keeper, onward
@@ -22,6 +21,7 @@ from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
+from dolfinrod.continuum.rubbing import remembers, rubs
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stability import judging
 from dolfinrod.continuum.stepping import Path, StepFailed, Walk

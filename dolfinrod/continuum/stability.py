@@ -24,7 +24,6 @@ from slepc4py import SLEPc
 import numpy as np
 
 from dolfinrod.continuum import backend
-from dolfinrod.continuum.contact import remembers
 from dolfinrod.continuum.inertia import Determinant, NegativePivots
 from dolfinrod.continuum.lift import lifted
 from dolfinrod.continuum.mass import ALIKE, densities
@@ -33,6 +32,7 @@ from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
+from dolfinrod.continuum.rubbing import remembers
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.scene import Spatial
 

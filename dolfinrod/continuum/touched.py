@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.continuum.contact import COLUMNS
 from dolfinrod.result import ContactHistory, Touching
 
 if TYPE_CHECKING:
@@ -20,9 +19,13 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["contact_histories"]
+__all__ = ["COLUMNS", "FELT", "MEMORY", "contact_histories"]
 
-FELT = ("gap", "pressure", "normal", "traction", "slip", "state")
+# What a node remembers of each contact, and what it feels there, with the number of components.
+MEMORY = {"x": 3, "anchored": 3, "multiplier": 1, "slip": 1, "state": 1}
+FELT = {"gap": 1, "pressure": 1, "normal": 3, "traction": 3}
+COLUMNS = {"t": 1, **MEMORY, **FELT}
+SHOWN = ("gap", "pressure", "normal", "traction", "slip", "state")
 
 
 def contact_histories(
@@ -44,7 +47,7 @@ def contact_histories(
 
     def of(k: int, rod: int) -> Touching:
         table = touched[rod][:, :, k * n : (k + 1) * n]
-        felt = {name: table[:, :, slice(*ends[name])] for name in FELT}
+        felt = {name: table[:, :, slice(*ends[name])] for name in SHOWN}
         values = {name: part if COLUMNS[name] > 1 else part[:, :, 0] for name, part in felt.items()}
         return Touching(
             s=rods[rod].s,

@@ -211,7 +211,12 @@ class Touch:
         held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
         self._x_0, self._X_0, self._gap_0, self._t_0 = self._x, step.X, step.gap, self._t
         self._λ_0 = self._λ.copy()
-        return Booked(self._law.energy(step.gap, self._λ) + held, rubbed - held, pushed)
+        return Booked(self.stored(), rubbed - held, pushed)
+
+    def stored(self) -> Array:
+        """Energy per length in penetrations and anchors at the start of the step, shape (n,) [J/m]."""
+        held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
+        return np.asarray(self._law.energy(self._gap_0, self._λ_0) + held)
 
     def memory(self) -> dict[str, Array]:
         """All that the points remember, one row a point: what `recall` takes."""
