@@ -161,6 +161,19 @@ class Contacts:
         mine = any(side.touch.changed for side in self._sides)
         return bool(self._problem.discretization.comm.allreduce(mine, op=MPI.LOR))
 
+    @property
+    def stiffness(self) -> float:
+        """That of the stiffest law, in EI/L⁴."""
+        place = self._problem.placement
+        stiffest = max(side.touch.contact.law.eps_N for side in self._sides)
+        return float(stiffest * place.length**4 / place.stiffness)
+
+    def soften(self, by: float) -> None:
+        """Let all walls be softer by a factor, until the next step begins."""
+        self._seen = None
+        for side in self._sides:
+            side.touch.soften(by)
+
     def renew(self) -> bool:
         """Renew multipliers; whether penetrations were within their tolerances already."""
         self._respond()
@@ -217,11 +230,6 @@ class Contacts:
             carrier.x.scatter_forward()
             by_cell.append(carrier.x.array[first])
         return np.stack(by_cell, axis=-1)
-
-    def shares(self) -> Array:
-        """Length of rod for which each node of a local cell stands [m], shape (cells, k + 1)."""
-        problem = self._problem
-        return np.asarray(node_lengths(problem)[problem.discretization.dofs["r"][:, :, 0]] * problem.placement.length)
 
     def recall(self, kept: Array, t: float | None = None) -> None:
         """Go back, or on, to what `kept` said, for this rank's cells; at another time, if one is given."""

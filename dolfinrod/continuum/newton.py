@@ -8,7 +8,8 @@ No residual line search: on the way to equilibrium the residual has to grow.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from mpi4py import MPI
@@ -17,6 +18,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from dolfinrod.continuum.direct import LIBRARY_ERROR, lu
+from dolfinrod.continuum.pressed import pressed, renewed
 from dolfinrod.continuum.watch import Unwatched, Watch
 
 if TYPE_CHECKING:
@@ -34,10 +36,6 @@ TOLERANCE = 1e-9
 NEGLIGIBLE = 1e-13
 # Iterations after which a load step is given up; a rod that winds up five turns takes about twenty.
 MOST_ITERATIONS = 50
-
-# Renewals of the multipliers of contact after which a step is given up.
-MOST_RENEWALS = 50
-PENETRATES = "penetrations stayed above the tolerance of an augmented Lagrangian: its eps_N is too small for these rods"
 
 LOST = PETSc.SNES.ConvergedReason.DIVERGED_DTOL
 SINGULAR = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
@@ -118,18 +116,14 @@ class Newton:
         Args:
             last: The equilibrium on this rank that the state was extrapolated from; None: it is one itself.
         """
-        found = self._found(last)
-        contacts, renewals = self.problem.contacts, 0
-        while contacts is not None and found.converged and not contacts.renew():
-            renewals += 1
-            again = self._found(None)
-            found = replace(again, iterations=found.iterations + again.iterations, strayed=found.strayed)
-            if renewals == MOST_RENEWALS:
-                return replace(found, converged=False, reason=PENETRATES)
-        return found
+        contacts, x = self.problem.contacts, self.problem.x
+        if contacts is None:
+            return self._found(last, MOST_ITERATIONS, TOLERANCE)
+        return renewed(contacts, lambda: pressed(x, contacts, partial(self._found, last), MOST_ITERATIONS, TOLERANCE))
 
-    def _found(self, last: NDArray[np.float64] | None) -> Outcome:
-        """Equilibrium with the multipliers of contact as they are."""
+    def _found(self, last: NDArray[np.float64] | None, most: int, fine: float) -> Outcome:
+        """A zero of the residual, in so many iterations at most, the last of this size."""
+        self._most, self._fine = most, fine
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
         self._watch = self._watched(last)
@@ -217,6 +211,8 @@ class Newton:
 
     def _settled(self) -> bool:
         """Whether no further increment matters."""
+        if self._fine > TOLERANCE:
+            return self._size < self._fine
         return (self._size < TOLERANCE or self._next < NEGLIGIBLE) and not self._touches_anew
 
     @property
@@ -238,4 +234,4 @@ class Newton:
             return reasons.DIVERGED_DTOL
         if iteration > 0 and self._settled():
             return reasons.CONVERGED_SNORM_RELATIVE
-        return reasons.DIVERGED_MAX_IT if iteration >= MOST_ITERATIONS else reasons.ITERATING
+        return reasons.DIVERGED_MAX_IT if iteration >= self._most else reasons.ITERATING

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum import reference
+from dolfinrod.continuum.lumped import node_lengths
 from dolfinrod.continuum.recovery import Sections
 from dolfinrod.continuum.touched import contact_histories
 from dolfinrod.result import RodHistory
@@ -103,7 +104,8 @@ class Readout:
         p = self.problem
         if p.contacts is None:
             return ()
-        shares = self.gather(share=p.contacts.shares()[:, self._order, None])["share"]
+        lengths = node_lengths(p)[p.discretization.dofs["r"][:, self._order, :1]] * p.placement.length
+        shares = self.gather(share=lengths)["share"]
         touched = np.stack([state["touch"] for state in states])[:, :, self._order]
         first = list(pairwise(np.concatenate([[0], np.cumsum(p.discretization.elements)])))
         of_rods = [_joined(shares[None, a:b])[0, :, 0] for a, b in first], [_joined(touched[:, a:b]) for a, b in first]
