@@ -12,7 +12,6 @@ Methods Appl. Mech. Eng. 194, 2005.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,7 +51,7 @@ class Pressing:
 
     def soften(self, by: float) -> None:
         """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
-        self.law = replace(self._full, eps_N=self._full.eps_N / by)
+        self.law = self._full.softened(by)
         self._led = None
 
     def at(self, X: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:

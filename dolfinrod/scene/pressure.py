@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -26,6 +26,10 @@ class NormalLaw(Protocol):
     @property
     def g_0(self) -> float:
         """Gap at which contact begins [m]."""
+        ...
+
+    def softened(self, by: float) -> NormalLaw:
+        """The same, softer by a factor."""
         ...
 
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
@@ -75,6 +79,10 @@ class Penalty:
         """A halo of 1 µm, ε_N = 4e5 N/m²: for fibres of some 20 µm that lie against each other."""
         return cls(4e5, 1e-6)
 
+    def softened(self, by: float) -> Penalty:
+        """See `NormalLaw`."""
+        return replace(self, eps_N=self.eps_N / by)
+
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`; λ has no part in it."""
         p = self.eps_N * np.maximum(self.g_0 - g, 0.0)
@@ -123,6 +131,10 @@ class SmoothPenalty:
             foot=positive(self.foot, "SmoothPenalty.foot", "m"),
             g_0=number(self.g_0, "SmoothPenalty.g_0", "m"),
         )
+
+    def softened(self, by: float) -> SmoothPenalty:
+        """See `NormalLaw`."""
+        return replace(self, eps_N=self.eps_N / by)
 
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`; λ has no part in it."""
@@ -182,6 +194,10 @@ class AugmentedLagrangian:
             eps_N=positive(self.eps_N, "AugmentedLagrangian.eps_N", "N/m²"),
             tolerance=positive(self.tolerance, "AugmentedLagrangian.tolerance", "m"),
         )
+
+    def softened(self, by: float) -> AugmentedLagrangian:
+        """See `NormalLaw`."""
+        return replace(self, eps_N=self.eps_N / by)
 
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`."""
