@@ -136,7 +136,7 @@ class Touch:
             return Step(X, turned, gap, on, pressed, share, none, none, None)
         # What came from afar in this step has touched only over the last part of its way.
         far = self._afar[on]
-        way = np.where(far, self._gap_0[on] - gap[on], 1.0)
+        way = np.where(far & (self._gap_0 > gap)[on], (self._gap_0 - gap)[on], 1.0)
         share = np.where(far, np.clip((self._pressing.law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
         w = (X - self._X_0)[on] - pressed.radius[:, None] * np.cross(turned[on], pressed.n)
         v = self._u[on] + share[:, None] * w
