@@ -15,7 +15,7 @@ from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import UniformCurvature
 from dolfinrod.scene.spline import Spline
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
-from dolfinrod.scene.surfaces import Plane, WallMotion
+from dolfinrod.scene.surfaces import Cylinder, Groove, Plane, WallMotion
 from dolfinrod.scene.touch import Touch
 from dolfinrod.scene.velocity import Velocity
 
@@ -26,10 +26,12 @@ __all__ = [
     "Contact",
     "Coulomb",
     "CreepingCoulomb",
+    "Cylinder",
     "Dynamic",
     "FollowerForce",
     "FollowerMoment",
     "Gravity",
+    "Groove",
     "Guide",
     "ImplicitEuler",
     "Kinematics",
