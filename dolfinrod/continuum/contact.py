@@ -86,6 +86,8 @@ class Contacts:
         self.t, self._seen = t, None
         for side in self._sides:
             side.touch.begin(t)
+            if self._problem.level == 1.0:
+                side.touch.cling()
 
     def _respond(self) -> None:
         """See to it that the answers are those to the present state."""

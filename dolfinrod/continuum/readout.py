@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum import reference
+from dolfinrod.continuum.couples import Couples
 from dolfinrod.continuum.lumped import node_lengths
 from dolfinrod.continuum.recovery import Sections
+from dolfinrod.continuum.rubbing import rubs
 from dolfinrod.continuum.touched import contact_histories
 from dolfinrod.result import RodHistory
 
@@ -45,6 +47,8 @@ class Readout:
         self._weights = reference.quadrature_weights(2 * d.degree)
         self._sections = Sections(problem.kinematics, d.degree)
         self._mine = slice(0, d.n_owned_cells)
+        # Friction acts at the surface of a rod, so that it puts moments on the centreline.
+        self._couples = Couples(problem) if rubs(problem.scene) else None
 
     def gather(self, **values: NDArray[np.float64]) -> State:
         """Arrays by local cell, lined up by rod and element on every rank."""
@@ -64,9 +68,12 @@ class Readout:
         return self.gather(nodal=nodal, **fields) | self.touched()
 
     def touched(self) -> State:
-        """What the nodes remember of contacts, if there are any."""
+        """What the nodes remember of contacts, if there are any, and the couples of friction."""
         contacts = self.problem.contacts
-        return {} if contacts is None else self.gather(touch=contacts.kept())
+        if contacts is None:
+            return {}
+        couples = {} if self._couples is None else {"couples": self._couples.rates()}
+        return self.gather(touch=contacts.kept(), **couples)
 
     def restore(self, state: State) -> None:
         """Make a gathered state the current one."""

@@ -227,8 +227,8 @@ def _touch(problem: Problem, start: Result, t: float) -> None:
 
 
 def _shapes(state: State) -> dict[str, tuple[int, ...]]:
-    """Of all fields but what nodes remember of contacts."""
-    return {field: values.shape for field, values in state.items() if field != "touch"}
+    """Of all fields but those of contacts."""
+    return {field: values.shape for field, values in state.items() if field not in ("touch", "couples")}
 
 
 def record(

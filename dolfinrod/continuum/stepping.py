@@ -220,7 +220,7 @@ class Walk:
         """The last state, and what led to it once more, times a factor."""
         before, last = self.path.states[-2:]
         turn = self.newton.problem.kinematics.extrapolated
-        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in last if f not in ("q", "touch")}
+        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in last if f not in ("q", "touch", "couples")}
         return beyond | {"q": turn(before["q"], last["q"], factor)}
 
     def _accept(self, t: float, outcome: Outcome, state: State, verdict: Verdict) -> None:

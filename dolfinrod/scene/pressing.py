@@ -48,6 +48,11 @@ class Pressing:
         """An iteration begins."""
         self.law = self._full
         self._led: tuple[Flags, Array, Array, Array] | None = None
+        self._kept = np.zeros(len(self._radius), dtype=bool)
+
+    def cling(self, pressed: Flags) -> None:
+        """Keep these points pressed in the first answer."""
+        self._kept = pressed
 
     def soften(self, by: float) -> None:
         """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
@@ -67,13 +72,15 @@ class Pressing:
         """
         p, slope = self.law.pressure(gap, λ)
         expected, pressed = p, p > 0.0
-        if self._led is not None:
+        if self._led is None:
+            pressed = pressed | self._kept
+        else:
             was, X_0, p_0, p_X = self._led
             hoped = p_0 + np.einsum("ni,ni->n", p_X, X - X_0)
             pressed = np.where(was, hoped > 0.0, pressed)
-            drawn, stiff = self.law.drawn(gap, λ)
-            p, slope = np.where(pressed, drawn, 0.0), np.where(pressed, stiff, 0.0)
             expected = np.where(was, np.maximum(hoped, 0.0), 0.0)
+        drawn, stiff = self.law.drawn(gap, λ)
+        p, slope = np.where(pressed, drawn, 0.0), np.where(pressed, stiff, 0.0)
         return (*self._grazing(p, slope, pressed, gap), expected)
 
     def _grazing(self, p: Array, slope: Array, pressed: Flags, gap: Array) -> tuple[Array, Array, Flags]:

@@ -46,7 +46,7 @@ class Touch:
         self._ε_T = self._stiffness
         n = len(radius)
         self._λ_0, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
-        self._state = np.zeros(n, dtype=np.int8)
+        self._state, self._state_0 = np.zeros(n, dtype=np.int8), np.zeros(n, dtype=np.int8)
         self.changed = False
 
     @property
@@ -61,7 +61,7 @@ class Touch:
         self._gap_0 = self._law_gap(self._X_0)
         for memory in (self._λ_0, self._slip, self._u):
             memory[:] = 0.0
-        self._state[:] = OPEN
+        self._state, self._state_0 = np.full_like(self._state, OPEN), np.full_like(self._state, OPEN)
         self.begin(t)
 
     def begin(self, t: float) -> None:
@@ -183,6 +183,10 @@ class Touch:
         follows = (v @ Q / speed[:, None])[:, :, None] * self._step.pressed.p_X[:, None, :]
         return -friction.mu * (follows + Q.T @ bent @ self._end.Q * (p * self._rate)[:, None, None])
 
+    def cling(self) -> None:
+        """Begin the iteration with what was pressed before, wherever the wall has gone meanwhile."""
+        self._pressing.cling(self._state_0 > OPEN)
+
     def soften(self, by: float) -> None:
         """Let the wall be softer by a factor until the next `begin`, or `soften(1)`: on the way to what is pressed."""
         self._pressing.soften(by)
@@ -220,7 +224,7 @@ class Touch:
             rubbed = -np.einsum("ni,ni->n", reply.traction, moved)
         held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
         self._x_0, self._X_0, self._gap_0, self._t_0 = self._x, step.X, step.gap, self._t
-        self._λ_0 = self._λ.copy()
+        self._λ_0, self._state_0 = self._λ.copy(), self._state
         return Booked(self.stored(), rubbed - held, pushed)
 
     def stored(self) -> Array:
@@ -235,12 +239,12 @@ class Touch:
             "anchored": self._u.copy(),
             "multiplier": self._λ_0.copy(),
             "slip": self._slip.copy(),
-            "state": self._state.astype(float),
+            "state": self._state_0.astype(float),
         }
 
     def recall(self, memory: Mapping[str, Array], t: float) -> None:
         """Go back, or on, to what was remembered at time t."""
         self.place(memory["x"], t)
         self._u, self._λ_0, self._slip = (memory[name].copy() for name in ("anchored", "multiplier", "slip"))
-        self._state = memory["state"].astype(np.int8)
+        self._state = self._state_0 = memory["state"].astype(np.int8)
         self.begin(t)
