@@ -50,9 +50,13 @@ class Pressing:
         self._led: tuple[Flags, Array, Array, Array] | None = None
         self._kept = np.zeros(len(self._radius), dtype=bool)
 
-    def cling(self, pressed: Flags) -> None:
-        """Keep these points pressed in the first answer."""
-        self._kept = pressed
+    def cling(self, pressed: Flags, gap: Array) -> Flags:
+        """Keep these points pressed in the first answer, and those whose gap was none; all of them."""
+        self._kept = pressed | self._just_touch(gap)
+        return self._kept
+
+    def _just_touch(self, gap: Array) -> Flags:
+        return np.abs(gap - self.law.g_0) <= GRAZING * self._radius
 
     def soften(self, by: float) -> None:
         """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
@@ -85,7 +89,7 @@ class Pressing:
 
     def _grazing(self, p: Array, slope: Array, pressed: Flags, gap: Array) -> tuple[Array, Array, Flags]:
         """What just touches is about to be pressed: without its stiffness a rod that lies on a wall would be free."""
-        grazes = ~pressed & (np.abs(gap - self.law.g_0) <= GRAZING * self._radius)
+        grazes = ~pressed & self._just_touch(gap)
         return p, np.where(grazes, -self.law.eps_N, slope), pressed | grazes
 
     def mean(self, start: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:

@@ -86,7 +86,7 @@ class Step:
     rubbing: Rubbing | None
 
 
-def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float) -> Rubbing:
+def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: NDArray[np.bool_]) -> Rubbing:
     """Return mapping: the anchors follow where they would pull harder than μ p.
 
     Args:
@@ -94,13 +94,14 @@ def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float) -> Rubbing:
         v: Displacement of the rods' surface from the anchors, its part along the normal included, shape (n, 3).
         μ: Coefficient of friction.
         ε_T: Stiffness of the anchors [N/m²].
+        clings: Points whose anchors stay however hard they pull, shape (n,).
 
     Returns:
         Tractions and where the anchors are.
     """
     u = v - np.einsum("ni,ni->n", v, pressed.n)[:, None] * pressed.n
     far, reach = np.sqrt(np.einsum("ni,ni->n", u, u)), μ * np.maximum(pressed.p, 0.0) / ε_T
-    slides = far > reach
+    slides = (far > reach) & ~clings
     held = np.where(slides, reach / np.where(slides, far, 1.0), 1.0)
     anchored = held[:, None] * u
     return Rubbing(-ε_T * anchored, anchored, np.where(slides & (pressed.p > 0.0), far - reach, 0.0), u, slides)

@@ -68,6 +68,7 @@ class Touch:
         """A step from where the rods were last accepted leads to time t."""
         self._λ = self._λ_0.copy()
         self._pressing.begin()
+        self._clings = np.zeros(len(self._radius), dtype=bool)
         self._ε_T = self._stiffness
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
         unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
@@ -114,6 +115,7 @@ class Touch:
             traction[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
         self.changed = not np.array_equal(state, self._state)
         self._state, self._x, self._turn = state, x.copy(), turn.copy()
+        self._clings = np.zeros(n, dtype=bool)
         self._reply = Reply(step.gap, pressure, normal, traction, moment, state)
         return self._reply
 
@@ -140,7 +142,8 @@ class Touch:
         share = np.where(far, np.clip((self._pressing.law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
         w = (X - self._X_0)[on] - pressed.radius[:, None] * np.cross(turned[on], pressed.n)
         v = self._u[on] + share[:, None] * w
-        return Step(X, turned, gap, on, pressed, share, w, v, rubbed(pressed, v, self._friction.mu, self._ε_T))
+        rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on])
+        return Step(X, turned, gap, on, pressed, share, w, v, rubbing)
 
     @property
     def _rate(self) -> float:
@@ -184,8 +187,8 @@ class Touch:
         return -friction.mu * (follows + Q.T @ bent @ self._end.Q * (p * self._rate)[:, None, None])
 
     def cling(self) -> None:
-        """Begin the iteration with what was pressed before, wherever the wall has gone meanwhile."""
-        self._pressing.cling(self._state_0 > OPEN)
+        """Begin the iteration with what was pressed and stuck before, wherever the wall has gone meanwhile."""
+        self._clings = self._pressing.cling(self._state_0 > OPEN, self._gap_0) & (self._state_0 != SLIDES)
 
     def soften(self, by: float) -> None:
         """Let the wall be softer by a factor until the next `begin`, or `soften(1)`: on the way to what is pressed."""

@@ -133,7 +133,8 @@ def test_a_rod_slides_where_its_slope_exceeds_mu(kinematics, law):
 
     def pushed(part: float) -> dr.Result:
         scene = lying(FLAT, law, dr.Coulomb(mu), dr.LineForce((part * mu * Q, 0.0, 0.0)))
-        return dr.solve(scene, elements=2, kinematics=kinematics)
+        pressed = replace(scene.loads[0], history=dr.Steady())
+        return dr.solve(replace(scene, loads=[pressed, scene.loads[1]]), elements=2, kinematics=kinematics)
 
     (touching,) = pushed(0.9).contacts[0].rods
     assert (touching.state[-1] == 1).all()
@@ -165,7 +166,8 @@ def test_friction_turns_a_rod_that_is_dragged_across():
     torque = result.rods[0].m[-1, :, 0]
     across = result.contacts[0].rods[0].traction[-1, :, 2]
     assert torque[0] == pytest.approx(-torque[-1], rel=1e-6)
-    assert abs(torque[0]) == pytest.approx(0.5 * RADIUS * abs(across @ result.contacts[0].rods[0].share), rel=1e-6)
+    # The rod bows by 2e-3, which lets the pressures have moments of 1e-5 of that of friction.
+    assert abs(torque[0]) == pytest.approx(0.5 * RADIUS * abs(across @ result.contacts[0].rods[0].share), rel=1e-4)
 
 
 @both_kinematics
