@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum.neutral import equilibrium
+from dolfinrod.continuum.pressed import DIRECT
 from dolfinrod.continuum.stability import Verdict
 from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.result import StepLog
@@ -85,12 +86,14 @@ class Stride:
         failed: Shortest that did not succeed.
         successes: Steps taken since then.
         cuts: Failed attempts at the present step.
+        easy: Most iterations of a step that was easy.
     """
 
     length: float = np.inf
     failed: float = np.inf
     successes: int = 0
     cuts: int = 0
+    easy: int = EASY
 
     def fail(self, tried: float) -> None:
         """Half of what was tried comes next."""
@@ -101,7 +104,7 @@ class Stride:
         """The same comes next, or more after an easy step, up to what failed not long ago."""
         self.successes += 1
         grown = GROWTH * tried
-        if self.cuts == 0 and iterations <= EASY and (grown < self.failed or self.successes >= PATIENCE):
+        if self.cuts == 0 and iterations <= self.easy and (grown < self.failed or self.successes >= PATIENCE):
             self.length = max(self.length, grown)
         elif self.cuts:
             self.length = tried
@@ -147,7 +150,9 @@ class Walk:
     ) -> None:
         self.newton, self._phase, self._judge, self._readout = (newton, phase, judge, readout)
         self.path, self._progress = path, progress
-        self._stride = Stride()
+        # Points that come to touch take iterations, however short the step.
+        self._easy = EASY if newton.problem.contacts is None else DIRECT
+        self._stride = Stride(easy=self._easy)
         scene = newton.problem.scene
         self._corners = {
             t
@@ -183,7 +188,7 @@ class Walk:
                 self._accept(t_next, outcome, state, verdict)
                 self._stride.succeed(tried, outcome.iterations)
                 if lost:
-                    self._stride = Stride()
+                    self._stride = Stride(easy=self._easy)
                 return
         self._readout.restore(path.states[-1])
         self._stride.fail(tried)

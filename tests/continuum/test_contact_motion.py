@@ -194,7 +194,7 @@ def test_a_motion_goes_on_where_it_was_stopped(tmp_path, scheme):
     def scene(t_end: float) -> dr.Scene:
         return thrown(dr.Dynamic(t_end, BOUNCE / 20, scheme), (0.3, -1.0, 0.2), friction=dr.Coulomb(0.4))
 
-    def stop(row: dr.StepLog, t_end: float) -> None:
+    def stop(row: dr.StepLog, _: float) -> None:
         if row.t > 0.6 * BOUNCE:
             raise KeyboardInterrupt
 
