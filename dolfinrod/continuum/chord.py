@@ -101,4 +101,5 @@ class Chord(Newton):
         return self._stalls and (self._size < TOLERANCE or self._moved < NEGLIGIBLE)
 
     def _settled(self) -> bool:
-        return self._next < NEGLIGIBLE or (self._is_fresh and self._size < TOLERANCE) or self._ends
+        small = self._next < NEGLIGIBLE or (self._is_fresh and self._size < TOLERANCE)
+        return self._ends or (small and not self._touches_anew)

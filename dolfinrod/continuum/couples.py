@@ -1,7 +1,7 @@
-"""Moments per length that turning sections put on a rod in motion, for the method of sections.
+"""Moments per length that turning sections, and friction, put on a rod, for the method of sections.
 
-Where nothing else puts a moment on a node, what the elements put on it is what turns its sections; that of a node
-between two elements is shared by their lengths. A support or a point moment puts its own there: next to one, the
+Where nothing else puts a moment on a node, what the elements put on it is what turns its sections, or friction; that of
+a node between two elements is shared by their lengths. A support or a point moment puts its own there: next to one, the
 moment per length is that of the polynomial through the other nodes of the element.
 """
 
@@ -16,7 +16,7 @@ from dolfinrod.continuum import backend, reference
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from dolfinrod.continuum.moving import Moving
+    from dolfinrod.continuum.problem import Problem
 
     Array = NDArray[np.float64]
 
@@ -24,13 +24,13 @@ __all__ = ["Couples"]
 
 
 class Couples:
-    """Moment per unit of ξ on the elements of a problem in motion.
+    """Moment per unit of ξ on the elements of a problem.
 
     Args:
         problem: Owner of the state.
     """
 
-    def __init__(self, problem: Moving) -> None:
+    def __init__(self, problem: Problem) -> None:
         self._problem, d = problem, problem.discretization
         self._q = d.dofs["q"]
         self._lengths = np.diff(problem.ends, axis=1) * reference.node_weights(d.degree)

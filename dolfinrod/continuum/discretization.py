@@ -54,6 +54,7 @@ class Discretization:
         degree: Degree k of centreline and rotation; resultants have k − 1.
         elements: Number of elements of each rod.
         stepped: Whether resultants follow other strains than those of the state at which they act.
+        rubbed: Whether moments at nodes follow where these are.
 
     Attributes:
         points: Gauss points on [0, 1].
@@ -71,7 +72,14 @@ class Discretization:
     """
 
     def __init__(
-        self, comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...], *, stepped: bool = False
+        self,
+        comm: MPI.Comm,
+        kinematics: Kinematics,
+        degree: int,
+        elements: tuple[int, ...],
+        *,
+        stepped: bool = False,
+        rubbed: bool = False,
     ) -> None:
         self.comm, self.kinematics, self.degree, self.elements = comm, kinematics, degree, elements
         nodes = [np.linspace(0.0, 1.0, n + 1) for n in elements]
@@ -88,15 +96,15 @@ class Discretization:
         index_map = self.space.dofmap.index_map
         self.n_owned, self.n_dofs = int(index_map.size_local), int(index_map.size_global)
         self.dofs = {f: backend.cell_dofs(self.space, i) for i, f in enumerate(self.kinematics.fields)}
-        spanned = self._spanned_matrix()
+        spanned = self._spanned_matrix(rubbed=rubbed)
         self.matrix = backend.without_zeros(spanned)
         self.band = Band(self.matrix, backend.order_by_neighbours(spanned)) if comm.size == 1 else None
 
-    def _spanned_matrix(self) -> PETSc.Mat:
+    def _spanned_matrix(self, *, rubbed: bool) -> PETSc.Mat:
         """A tangent that is zero only where every tangent is, with all entries that the elements span.
 
         It is assembled at a random state with random coefficients; to it come the diagonal, for held dofs, and the
-        part by which a force at a node moves and turns with it.
+        part by which a force at a node, or its moment where it rubs, moves and turns with it.
         """
         random = np.random.default_rng(seed=0)
         for function in (self.x, self.r_0, self.C_n, self.C_m):
@@ -108,7 +116,8 @@ class Discretization:
         every = np.arange(len(self.state), dtype=np.int32)
         r, q = (self.dofs[f].reshape(-1, self.dofs[f].shape[2]) for f in ("r", "q"))
         both = np.concatenate([r, q], axis=1)
-        rows, columns = np.repeat(r, both.shape[1], axis=1).ravel(), np.tile(both, (1, r.shape[1])).ravel()
+        from_ = both if rubbed else r
+        rows, columns = np.repeat(from_, both.shape[1], axis=1).ravel(), np.tile(both, (1, from_.shape[1])).ravel()
         backend.add_entries(spanned, np.concatenate([every, rows]), np.concatenate([every, columns]), 1.0)
         spanned.assemble()
         return spanned

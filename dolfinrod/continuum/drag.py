@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.continuum import reference
-from dolfinrod.continuum.lumped import summed
+from dolfinrod.continuum.lumped import node_lengths
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -33,12 +32,8 @@ class Drag:
     def __init__(self, problem: Moving, air: Air) -> None:
         self._problem, self._air = problem, air
         d, place = problem.discretization, problem.placement
-        mine = slice(0, d.n_owned_cells)
-        at = d.dofs["r"][mine][:, :, 0]
-        local = np.zeros(len(problem.x))
-        np.add.at(local, at, np.diff(problem.ends[mine], axis=1) * reference.node_weights(d.degree))
         nodes = problem.lumped.r[:, 0]
-        self._share = summed(problem, local)[nodes] * (place.length / place.force)
+        self._share = node_lengths(problem)[nodes] * (place.length / place.force)
         diameter, axis = np.zeros(len(problem.x)), np.zeros((len(problem.x), 3))
         everywhere = d.dofs["r"][:, :, 0]
         diameter[everywhere] = 2.0 * np.array([rod.section.radius for rod in problem.scene.rods])[problem.rod][:, None]

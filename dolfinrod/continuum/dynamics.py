@@ -18,6 +18,7 @@ from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.readout import Readout
 from dolfinrod.continuum.restart import follow_on, moving_state
+from dolfinrod.continuum.rubbing import rubs
 from dolfinrod.continuum.schemes import EULER, MIDPOINT
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stepping import StepFailed
@@ -64,7 +65,7 @@ def move(
     rods: Kinematics = PlanarRods() if isinstance(kinematics, Planar) else SpatialRods()
     scheme = EULER if isinstance(times.scheme, ImplicitEuler) else MIDPOINT
     stepped = scheme is MIDPOINT or any(rod.section.damping for rod in scene.rods)
-    with borrowed(comm, rods, degree, counts, stepped=stepped) as (discretization, is_new):
+    with borrowed(comm, rods, degree, counts, stepped=stepped, rubbed=rubs(scene)) as (discretization, is_new):
         problem = Moving(in_time(scene), discretization, Placement.of(scene, kinematics), scheme)
         begin(problem)
         newton = Chord(problem)
@@ -141,4 +142,5 @@ def _record(scene: Scene, march: March, seconds: tuple[float, float, float], *, 
             notes=(problem.scheme.name,),
         ),
         state=moving_state(march),
+        contacts=readout.contacts(states),
     )

@@ -136,6 +136,14 @@ class Kinematics(Protocol):
         """∂/∂q₁ of that."""
         ...
 
+    def rotation_vector(self, q_0: Array, q_1: Array) -> Array:
+        """Turn from q₀ to q₁ as a rotation vector in working directions, (n, n_spin)."""
+        ...
+
+    def rotation_vector_gradient(self, q_0: Array, q_1: Array) -> Array:
+        """∂/∂q₁ of that, (n, n_spin, n_q)."""
+        ...
+
     def turned_spin(self, q: Array, v: Array) -> Array:
         """A spin or moment of the turned frame in working directions."""
         ...

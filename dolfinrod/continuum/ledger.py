@@ -38,8 +38,10 @@ class Ledger:
     def __init__(self, problem: Moving) -> None:
         self._problem, self._strain = problem, Strain(problem)
         self.rows: list[dict[str, float]] = []
-        self._now = dict(zip(STORED, self._summed(self._energies()), strict=True))
-        self._works = dict.fromkeys(("load work", "support work", "drag", "damping", "numerical"), 0.0)
+        self._stored = STORED if problem.contacts is None else (*STORED, "contact")
+        self._now = dict(zip(self._stored, self._summed(self._energies()), strict=True))
+        rubbing = () if problem.contacts is None else ("friction", "wall work")
+        self._works = dict.fromkeys(("load work", "support work", "drag", "damping", *rubbing, "numerical"), 0.0)
 
     def store(self) -> None:
         """Keep what it is now."""
@@ -67,15 +69,20 @@ class Ledger:
         held = held[held < problem.discretization.n_owned]
         resisted = [float(part @ change) for part in parts]
         pushed = float(np.sum(parts, axis=0)[held] @ change[held])
-        sums = self._summed([*self._energies(), *resisted, pushed, self._strain.dissipated])
-        self._now = dict(zip(STORED, sums, strict=False))
+        rubbed = [0.0, 0.0] if problem.contacts is None else problem.contacts.accept()
+        sums = self._summed([*self._energies(), *resisted, pushed, self._strain.dissipated, *rubbed])
+        self._now = dict(zip(self._stored, sums, strict=False))
         gained = {name: self._now[name] - before[name] for name in before}
-        inertia, elastic, loads, drag, support, dissipated = sums[len(STORED) :]
+        inertia, elastic, loads, drag, contact, support, dissipated, rubbed_off, walls = sums[len(self._stored) :]
         self._works["load work"] += gained["potential"] - loads
         self._works["drag"] -= drag
         self._works["support work"] += support
         self._works["damping"] -= dissipated
         self._works["numerical"] += gained["kinetic"] + gained["strain"] - inertia - elastic + dissipated
+        if problem.contacts is not None:
+            self._works["friction"] -= rubbed_off
+            self._works["wall work"] += walls
+            self._works["numerical"] += gained["contact"] - contact + rubbed_off - walls
 
     def _forces(self) -> list[Array]:
         """Residuals of the step's parts at this rank's own dofs, along the sphere of the balance."""
@@ -99,4 +106,5 @@ class Ledger:
         body = problem.kinematics.turned_back(problem.x[lumped.q], problem.motion.π)
         kinetic = 0.5 * float(lumped.m @ np.einsum("ni,ni->n", problem.motion.v, problem.motion.v))
         kinetic += 0.5 * float(np.vdot(body, np.einsum("nij,nj->ni", lumped.J_inverse, body)))
-        return [kinetic, self._strain.settle(), problem.potential()]
+        touched = [] if problem.contacts is None else [problem.contacts.stored()]
+        return [kinetic, self._strain.settle(), problem.potential(), *touched]

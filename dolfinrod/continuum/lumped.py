@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Lumped", "summed"]
+__all__ = ["Lumped", "node_lengths", "summed"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,3 +81,13 @@ def summed(problem: Problem, local: Array) -> Array:
     f.x.array[:] = local
     backend.sum_over_ranks(f)
     return np.asarray(f.x.array.copy())
+
+
+def node_lengths(problem: Problem) -> Array:
+    """Length of rod for which each node stands, at the first of its centreline dofs on this rank, in L."""
+    d = problem.discretization
+    mine = slice(0, d.n_owned_cells)
+    local = np.zeros(len(problem.x))
+    weight = np.diff(problem.ends[mine], axis=1) * reference.node_weights(d.degree)
+    np.add.at(local, d.dofs["r"][mine][:, :, 0], weight)
+    return summed(problem, local)

@@ -11,6 +11,7 @@ from dolfinrod.continuum.ledger import Ledger
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.pace import Pace
 from dolfinrod.continuum.predictor import Predictor
+from dolfinrod.continuum.restart import rates
 from dolfinrod.continuum.stepping import StepFailed
 from dolfinrod.continuum.trajectory import Mark, Trajectory
 from dolfinrod.result import StepLog
@@ -182,7 +183,7 @@ class March:
 
     def state(self) -> State:
         """Gathered state with velocities "v" and spins "omega", and the couples of sections that have inertia."""
-        state = self.readout.state() | self.problem.rates(self.readout)
+        state = self.readout.state() | rates(self.problem, self.readout)
         if self._couples is not None:
             state |= self.readout.gather(couples=self._couples.rates())
         return state
@@ -192,7 +193,9 @@ class March:
         count = len(kept.t), len(kept.log), kept.iterations
         excess = problem.discretization.excess
         strained = None if excess is None else excess.step()
-        self.mark = Mark(t, problem.x.copy(), problem.motion, self._pace.length, self.ledger.now(), *count, strained)
+        touched = None if problem.contacts is None else problem.contacts.memory()
+        now = problem.x.copy(), problem.motion, self._pace.length, self.ledger.now()
+        self.mark = Mark(t, *now, *count, strained, touched)
 
     def _rewind(self) -> None:
         """Forget what came after the mark."""
@@ -201,6 +204,8 @@ class March:
         self.problem.motion, self._pace.length = mark.motion, mark.length
         if mark.strained is not None and self.problem.discretization.excess is not None:
             self.problem.discretization.excess.after(mark.strained)
+        if mark.touched is not None and self.problem.contacts is not None:
+            self.problem.contacts.take_back(mark.touched)
         del kept.t[mark.stored :], kept.states[mark.stored :], kept.log[mark.steps :]
         kept.iterations = mark.iterations
         self.ledger.rewind(mark.energy, mark.stored)
@@ -211,7 +216,9 @@ def targets(scene: Scene, times: Dynamic) -> list[float]:
     end, dt = times.t_end, times.dt
     n = 1 if dt is None else int(np.ceil(end / dt * (1.0 - SAME)))
     even = end * (np.arange(1, n + 1) / n)
-    corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
+    corners = [
+        t for part in (*scene.supports, *scene.loads, *scene.contacts) for t in kinks(getattr(part, "history", None))
+    ]
     stored = outputs(times)
     met = np.unique(np.concatenate([even, corners, [] if stored is None else stored]))
     met = met[(met > 0.0) & (met <= end)]

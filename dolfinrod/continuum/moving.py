@@ -17,13 +17,15 @@ from dolfinrod.continuum.turning import NoTurning, Turning
 from dolfinrod.scene import Gravity, LineForce, Steady
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from petsc4py import PETSc
 
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.discretization import Discretization
     from dolfinrod.continuum.placement import Placement
-    from dolfinrod.continuum.readout import Readout
+    from dolfinrod.continuum.problem import Block
     from dolfinrod.continuum.schemes import Scheme
     from dolfinrod.scene import Scene
 
@@ -43,14 +45,14 @@ class Moving(Problem):
 
     Attributes:
         lumped: Masses of the nodes.
-        parts: Residuals of inertia, elasticity, loads and air in the last step, on all local dofs.
+        parts: Residuals of inertia, elasticity, loads, air and contact in the last step, on all local dofs.
         motion: How the nodes move.
         turns: Whether any section has rotary inertia, on any rank.
     """
 
     def __init__(self, scene: Scene, discretization: Discretization, placement: Placement, scheme: Scheme) -> None:
+        self.scheme, self.level = scheme, scheme.level
         super().__init__(scene, discretization, placement)
-        self.scheme = scheme
         self.lumped = Lumped.of(self)
         self.motion = Motion(np.zeros(self.lumped.r.shape), np.zeros((len(self.lumped.q), self.kinematics.n_spin)))
         self._before, self._start = self.x.copy(), self.motion
@@ -63,10 +65,9 @@ class Moving(Problem):
             if isinstance(load, Gravity) and isinstance(history, Steady)
         ]
         self._drag = None if scene.air is None else Drag(self, scene.air)
-        self._parts = [backend.function(discretization.space) for _ in range(4)]
+        self._parts = [backend.function(discretization.space) for _ in range(5)]
         self.parts = [part.x.array for part in self._parts]
-        self._is_held = np.zeros(len(self.x), dtype=bool)
-        self._is_held[self.constraints.dofs] = True
+        self._is_held = np.isin(np.arange(len(self.x)), self.constraints.dofs)
         self._set_levels()
 
     def _set_levels(self) -> None:
@@ -90,25 +91,29 @@ class Moving(Problem):
         self.discretization.begin_step(self._before, dt, self.scheme.level)
         self.advance_to(t + self.scheme.level * dt)
         self.x[self.constraints.dofs] = self.constraints.values(t + dt)
+        if self.contacts is not None:
+            self.contacts.begin(t + dt)
         self._r_0 = self._before[self.lumped.r]
         self._turning.begin(self._before[self.lumped.q], self._start.π, self.h)
         self._from_before = self._before_part * self._before
 
     def add_residual(self, b: Array) -> None:
         """Add this rank's residual of the step to the local array b."""
-        self._add_apart(b, b, b, b)
+        self._add_apart(b, b, b, b, b)
 
-    def _add_apart(self, inertia: Array, elastic: Array, loads: Array, drag: Array) -> None:
-        """Add this rank's residuals of inertia, elasticity, loads and air, each to its own local array."""
+    def _add_apart(self, inertia: Array, elastic: Array, loads: Array, drag: Array, contact: Array) -> None:
+        """Add this rank's residuals of inertia, elasticity, loads, air and contact, each to its own local array."""
         lumped, rate = self.lumped, self._rate()
         per_step = 1.0 / (self.scheme.level * self.h)
         inertia[lumped.r] += (per_step * lumped.m)[:, None] * (rate - self._start.v)
         inertia[lumped.q] += per_step * self._turning.residual(self.x[lumped.q])
         self._add_elastic(elastic)
-        at = self._acting_at() if self._acting or self._drag is not None else self.x
+        at = self._acting_at() if self._acting or self._drag is not None or self.contacts is not None else self.x
         self.add_loads(loads, at)
         if self._drag is not None:
             drag[lumped.r] -= self._drag.force(at[lumped.r], at[lumped.q], rate, self.t)
+        if self.contacts is not None:
+            self.contacts.add_residual(contact, at[lumped.q])
 
     def _add_elastic(self, b: Array) -> None:
         """Add the residual of the forms, at the state at which forces act."""
@@ -187,7 +192,14 @@ class Moving(Problem):
         backend.add_entries(A, *self.entries(q, q, per_step * self._turning.tangent(after[q])))
         if self._drag is not None:
             self._add_drag(A, self._drag)
+        if self.contacts is not None:
+            for block in self.contacts.blocks(self._acting_at()[q]):
+                backend.add_entries(A, *self.entries(*block))
         A.assemble()
+
+    def _contact_stiffnesses(self) -> Iterator[Block]:
+        """None among those by the state between: contact is linearised by the one after the step."""
+        return iter(())
 
     def _add_drag(self, A: PETSc.Mat, drag: Drag) -> None:
         """Tangent of the air's force."""
@@ -213,18 +225,6 @@ class Moving(Problem):
         """Error of the last step, in L."""
         return float(self.discretization.comm.allreduce(self.motion.error(self._start, self.scheme.order), op=MPI.MAX))
 
-    def rates(self, readout: Readout) -> dict[str, Array]:
-        """Velocities and spins at the nodes by cell, on every rank, in working units."""
-        d, lumped, kin = self.discretization, self.lumped, self.kinematics
-        spin = kin.turned_back(self.x[lumped.q], self.motion.π)
-        spin = kin.turned_spin(self.x[lumped.q], np.einsum("nij,nj->ni", lumped.J_inverse, spin))
-        moving = backend.function(d.space)
-        moving.x.array[lumped.r] = self.motion.v
-        moving.x.array[lumped.q[:, : kin.n_spin]] = spin
-        moving.x.scatter_forward()
-        q = d.dofs["q"][:, :, : kin.n_spin]
-        return readout.gather(v=moving.x.array[d.dofs["r"]], omega=moving.x.array[q])
-
     def end_step(self) -> None:
         """Take the velocities and momenta that the step leads to."""
         r, q, rate, start = self.lumped.r, self.lumped.q, self._rate(), self._start
@@ -233,7 +233,7 @@ class Moving(Problem):
         if self.scheme.side:
             self.motion = Motion(rate, self._turning.mean(after), (rate - start.v) / self.h, self.h)
             return
-        # What a support adds to the momentum of what it holds is not known: the mean rate stands for it there.
+        # What a support adds to the momentum of what it holds is not known: the mean rate stands for it.
         v = np.where(self._is_held[r], rate, 2.0 * rate - start.v)
         π = self._turning.left(after, sum(b[q] for b in self.parts[1:]))
         held = self._is_held[q].any(axis=1)

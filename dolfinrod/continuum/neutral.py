@@ -176,7 +176,12 @@ def equilibrium(newton: Newton, phase: PhaseCondition, last: NDArray[np.float64]
     """
     if not phase.needed:
         return newton.solve(last)
-    phase.hold()
+    if newton.problem.contacts is None:
+        phase.hold()
+    else:
+        # Only what no surface resists, either, is free.
+        newton.problem.hold(np.zeros(0, dtype=np.int32))
+        phase.hold_null(newton.tangent())
     found = newton.solve(last)
     while found.converged and phase.drop_pushed():
         again = newton.solve()

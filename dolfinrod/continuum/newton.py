@@ -9,6 +9,7 @@ No residual line search: on the way to equilibrium the residual has to grow.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from mpi4py import MPI
@@ -17,6 +18,7 @@ from petsc4py import PETSc
 import numpy as np
 
 from dolfinrod.continuum.direct import LIBRARY_ERROR, lu
+from dolfinrod.continuum.pressed import pressed, renewed
 from dolfinrod.continuum.watch import Unwatched, Watch
 
 if TYPE_CHECKING:
@@ -114,6 +116,14 @@ class Newton:
         Args:
             last: The equilibrium on this rank that the state was extrapolated from; None: it is one itself.
         """
+        contacts, x = self.problem.contacts, self.problem.x
+        if contacts is None:
+            return self._found(last, MOST_ITERATIONS, TOLERANCE)
+        return renewed(contacts, lambda: pressed(x, contacts, partial(self._found, last), MOST_ITERATIONS, TOLERANCE))
+
+    def _found(self, last: NDArray[np.float64] | None, most: int, fine: float) -> Outcome:
+        """A zero of the residual, in so many iterations at most, the last of this size."""
+        self._most, self._fine = most, fine
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
         self._watch = self._watched(last)
@@ -142,6 +152,11 @@ class Newton:
         if self._lu is not None and self._lu.singular:
             return SINGULAR
         return int(self.snes.getConvergedReason())
+
+    def tangent(self) -> PETSc.Mat:
+        """The tangent at the problem's state."""
+        self.problem.assemble_tangent(self._A)
+        return self._A
 
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together: the garbage collector would do it on each at its own time."""
@@ -196,7 +211,14 @@ class Newton:
 
     def _settled(self) -> bool:
         """Whether no further increment matters."""
-        return self._size < TOLERANCE or self._next < NEGLIGIBLE
+        if self._fine > TOLERANCE:
+            return self._size < self._fine
+        return (self._size < TOLERANCE or self._next < NEGLIGIBLE) and not self._touches_anew
+
+    @property
+    def _touches_anew(self) -> bool:
+        """Whether the last increment has changed what touches, sticks or slides: the tangent was of something else."""
+        return self.problem.contacts is not None and self._size > NEGLIGIBLE and self.problem.contacts.changed
 
     def _largest(self, *values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Largest of each array of magnitudes, over all ranks; a rank may have none."""
@@ -212,4 +234,4 @@ class Newton:
             return reasons.DIVERGED_DTOL
         if iteration > 0 and self._settled():
             return reasons.CONVERGED_SNORM_RELATIVE
-        return reasons.DIVERGED_MAX_IT if iteration >= MOST_ITERATIONS else reasons.ITERATING
+        return reasons.DIVERGED_MAX_IT if iteration >= self._most else reasons.ITERATING

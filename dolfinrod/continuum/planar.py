@@ -112,6 +112,14 @@ class PlanarRods:
         """Its derivative, (n, 1, 1)."""
         return np.ones((len(q_0), 1, 1))
 
+    def rotation_vector(self, q_0: Array, q_1: Array) -> Array:
+        """The angle between them, (n, 1)."""
+        return q_1 - q_0
+
+    def rotation_vector_gradient(self, q_0: Array, q_1: Array) -> Array:
+        """Its derivative, (n, 1, 1)."""
+        return np.ones((len(q_0), 1, 1))
+
     def turned_spin(self, q: Array, v: Array) -> Array:
         """v itself: the normal is fixed, (n, 1)."""
         return v

@@ -21,7 +21,7 @@ __all__ = ["borrowed"]
 MOST_KEPT = 8
 
 # Only for communicators that are never freed: the ranks of each make the same calls, so they keep the same ones.
-_IDLE: dict[str, OrderedDict[tuple[str, int, tuple[int, ...], bool], Discretization]] = {
+_IDLE: dict[str, OrderedDict[tuple[str, int, tuple[int, ...], bool, bool], Discretization]] = {
     "world": OrderedDict(),
     "self": OrderedDict(),
 }
@@ -29,16 +29,25 @@ _IDLE: dict[str, OrderedDict[tuple[str, int, tuple[int, ...], bool], Discretizat
 
 @contextmanager
 def borrowed(
-    comm: MPI.Comm, kinematics: Kinematics, degree: int, elements: tuple[int, ...], *, stepped: bool = False
+    comm: MPI.Comm,
+    kinematics: Kinematics,
+    degree: int,
+    elements: tuple[int, ...],
+    *,
+    stepped: bool = False,
+    rubbed: bool = False,
 ) -> Iterator[tuple[Discretization, bool]]:
     """A discretization for the time of one solve, and whether it was made for it.
 
     It leaves the pool while in use, so a solve started from within another one gets its own.
     """
     idle = _IDLE["world"] if comm == MPI.COMM_WORLD else _IDLE["self"] if comm == MPI.COMM_SELF else None
-    key = (kinematics.name, degree, elements, stepped)
+    key = (kinematics.name, degree, elements, stepped, rubbed)
     found = None if idle is None else idle.pop(key, None)
-    discretization = Discretization(comm, kinematics, degree, elements, stepped=stepped) if found is None else found
+    if found is None:
+        discretization = Discretization(comm, kinematics, degree, elements, stepped=stepped, rubbed=rubbed)
+    else:
+        discretization = found
     yield discretization, found is None
     if idle is not None:
         idle[key] = discretization

@@ -10,10 +10,12 @@ import numpy as np
 
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.constraints import Constraints
+from dolfinrod.continuum.contact import Contacts
 from dolfinrod.continuum.discretization import Discretization, Values
+from dolfinrod.continuum.layout import Layout
 from dolfinrod.continuum.loading import line_loads, point_terms
-from dolfinrod.continuum.nodes import element_ends
 from dolfinrod.continuum.placement import exact_zeros
+from dolfinrod.continuum.rubbing import contact_terms
 from dolfinrod.scene.history import factor
 
 if TYPE_CHECKING:
@@ -52,21 +54,28 @@ class Problem:
         R_0: Stress-free frames at those nodes, shape (cells, k + 1, 3, 3).
         spins: Section axes at the Gauss points in components of spin, shape (cells, points, n_spin, 3).
         held_force: Residual on this rank at the dofs given to `hold`.
+        contacts: What the rods touch; None where the scene has nothing to touch.
         terms: Names of all that acts.
         line_loads: History and full residual of each line load.
     """
 
+    # Where in a step forces act.
+    level = 1.0
+
     def __init__(self, scene: Scene, discretization: Discretization, placement: Placement) -> None:
         self.scene, self.discretization, self.placement = (scene, discretization, placement)
         self.kinematics = discretization.kinematics
-        self._cut_rods()
+        self.layout = Layout.of(scene, discretization, placement.length)
+        self.rod, self.ends = self.layout.rod, self.layout.ends
+        self.s = self.layout.along(discretization.nodes)
         self._set_values()
         self.constraints = Constraints(scene, self.kinematics, placement, self.locate)
         self._lump()
         self.hold(np.zeros(0, dtype=np.int32))
         self._point_terms = point_terms(scene, self.kinematics, placement, self._locate_owned)
         self.line_loads = list(zip(self._line_histories, discretization.line_loads(self._line_fields), strict=True))
-        self.terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads))
+        self.contacts = Contacts(self, self.level) if scene.contacts else None
+        self.terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads), *contact_terms(scene))
         self.advance_to(0.0)
 
     @property
@@ -74,38 +83,15 @@ class Problem:
         """State on this rank."""
         return self.discretization.state
 
-    def _cut_rods(self) -> None:
-        """Element number and rod of every local cell, and where its nodes lie."""
-        d = self.discretization
-        ends = [element_ends(self.scene, j, n) / self.placement.length for j, n in enumerate(d.elements)]
-        lined_up = np.concatenate([np.stack([s[:-1], s[1:]], axis=1) for s in ends])
-        self.rod = np.repeat(np.arange(len(ends)), d.elements)[d.cell]
-        self.ends = lined_up[d.cell]
-        self.s = self._along(d.nodes)
-
-    def _along(self, ξ: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Arc length of the points ξ ∈ [0, 1] of every cell, exact at its ends."""
-        return self.ends[:, :1] * (1.0 - ξ) + self.ends[:, 1:] * ξ
-
-    def _on_rods(self, s: NDArray[np.float64], quantity: str) -> NDArray[np.float64]:
-        """A quantity of the stress-free rods at arc lengths s (cells, points) in L."""
-        shape = {"centerline": (3,), "frames": (3, 3)}[quantity]
-        values = np.zeros((*s.shape, *shape))
-        for j, rod in enumerate(self.scene.rods):
-            mine = self.rod == j
-            at = np.clip(s[mine].ravel() * self.placement.length, 0.0, rod.length)
-            values[mine] = getattr(rod, quantity)(at).reshape(-1, s.shape[1], *shape)
-        return values
-
     def _set_values(self) -> None:
         d, place, scene = self.discretization, self.placement, self.scene
-        at_points = self._along(d.points)
+        at_points = self.layout.along(d.points)
         sections = [rod.section for rod in scene.rods]
         c_n = np.array([section.compliance_n for section in sections]) * place.force
         c_m = np.array([section.compliance_m for section in sections]) * place.stiffness
-        R_0 = self._on_rods(at_points, "frames")
+        R_0 = self.layout.on_rods(at_points, "frames")
         directions, self.spins = exact_zeros(place.axes.T @ R_0), exact_zeros(place.spin_axes.T @ R_0)
-        r_0 = place.points(self._on_rods(self.s, "centerline"))
+        r_0 = place.points(self.layout.on_rods(self.s, "centerline"))
         self._line_histories, self._line_fields = line_loads(scene, place, self.rod, at_points)
         self.values = Values(
             ends=self.ends,
@@ -115,7 +101,7 @@ class Problem:
             τ=np.array([section.damping for section in sections])[self.rod],
         )
         d.set(self.values)
-        self.R_0 = self._on_rods(self.s, "frames")
+        self.R_0 = self.layout.on_rods(self.s, "frames")
         self.x[:] = 0.0
         self.x[d.dofs["r"]] = r_0
         self.x[d.dofs["q"]] = self.kinematics.at_rest(1)[0]
@@ -149,12 +135,16 @@ class Problem:
         """Put supports and loads at pseudo-time t; the rest of the state stays."""
         self.t = t
         self.x[self.constraints.dofs] = self.constraints.values(t)
+        if self.contacts is not None:
+            self.contacts.begin(t)
         self._acting: list[PointTerm] = [build(t) for build in self._point_terms]
 
     def add_residual(self, b: NDArray[np.float64]) -> None:
         """Add this rank's residual at the current state and time to the local array b."""
         self.discretization.residual.add_vector(b)
         self.add_loads(b, self.x)
+        if self.contacts is not None:
+            self.contacts.add_residual(b, self.x[self.contacts.q])
 
     def loaded_dofs(self) -> list[NDArray[np.int32]]:
         """Dofs on which the point loads of this rank act."""
@@ -224,6 +214,11 @@ class Problem:
                 along = np.eye(p.shape[1]) - p[:, :, None] * p[:, None, :]
                 values = along @ values @ along
             yield rows, columns, values
+        yield from self._contact_stiffnesses()
+
+    def _contact_stiffnesses(self) -> Iterator[Block]:
+        """That of what the rods touch."""
+        return iter(()) if self.contacts is None else self.contacts.blocks(self.x[self.contacts.q])
 
     def assemble_tangent(self, A: PETSc.Mat, *, on_sphere: bool = False) -> None:
         """Tangent at the current state and time, unit rows and columns for held dofs.

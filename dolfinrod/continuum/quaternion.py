@@ -21,13 +21,18 @@ __all__ = [
     "curvature",
     "exponential",
     "left",
+    "logarithm",
     "multiply",
     "right",
     "rotate",
     "rotate_gradient",
     "rotation",
+    "spin_to_rate",
 ]
 
+
+# Half angles below which two terms of a series are exact to round-off [rad].
+SMALL = 1e-2
 
 # Row by row, the entry of Im(δp p̄) or Im(p̄ δp) as a matrix on δp is this component of p with this sign.
 PLACES = np.eye(4)[[[1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]]]
@@ -97,6 +102,29 @@ def exponential(theta: NDArray[np.float64]) -> NDArray[np.float64]:
     """Quaternion (cos ½|θ|, sin ½|θ| θ/|θ|) of a rotation vector of any length, shapes (..., 3) → (..., 4)."""
     half = 0.5 * np.sqrt(np.sum(theta * theta, axis=-1, keepdims=True))
     return np.concatenate([np.cos(half), 0.5 * np.sinc(half / np.pi) * theta], axis=-1)
+
+
+def logarithm(p: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation vector of unit quaternions, |θ| ≤ π, shape (n, 4) → (n, 3)."""
+    p = np.where(p[:, :1] < 0.0, -p, p)
+    sine = np.sqrt(np.einsum("ni,ni->n", p[:, 1:], p[:, 1:]))
+    half = np.arctan2(sine, p[:, 0])
+    ratio = np.divide(2.0 * half, sine, out=np.full_like(sine, 2.0), where=sine > 0.0)
+    return np.asarray(ratio[:, None] * p[:, 1:])
+
+
+def spin_to_rate(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How a rotation vector changes with the spin of what it turned, δθ = T⁻¹ δω, shape (n, 3) → (n, 3, 3).
+
+    T⁻¹ = 1 − ½ θ× + c (θ×)², c = (1 − ½ φ cot ½φ)/φ², φ = |θ|.
+    """
+    φ_2 = np.einsum("ni,ni->n", theta, theta)
+    half = 0.5 * np.sqrt(φ_2)
+    small = half < SMALL
+    safe = np.where(small, 1.0, half)
+    c = np.where(small, 1.0 / 12.0 + φ_2 / 720.0, (1.0 - safe / np.tan(safe)) / (4.0 * safe**2))
+    across = crossed(theta, np.broadcast_to(np.eye(3), (len(theta), 3, 3)))
+    return np.asarray(np.eye(3) - 0.5 * across + c[:, None, None] * (across @ across))
 
 
 def rotate(p: NDArray[np.float64], v: NDArray[np.float64]) -> NDArray[np.float64]:

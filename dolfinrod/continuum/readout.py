@@ -8,13 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum import reference
+from dolfinrod.continuum.couples import Couples
+from dolfinrod.continuum.lumped import node_lengths
 from dolfinrod.continuum.recovery import Sections
+from dolfinrod.continuum.rubbing import rubs
+from dolfinrod.continuum.touched import contact_histories
 from dolfinrod.result import RodHistory
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.problem import Problem
+    from dolfinrod.result import ContactHistory
 
 __all__ = ["Readout"]
 
@@ -42,6 +47,8 @@ class Readout:
         self._weights = reference.quadrature_weights(2 * d.degree)
         self._sections = Sections(problem.kinematics, d.degree)
         self._mine = slice(0, d.n_owned_cells)
+        # Friction acts at the surface of a rod, so that it puts moments on the centreline.
+        self._couples = Couples(problem) if rubs(problem.scene) else None
 
     def gather(self, **values: NDArray[np.float64]) -> State:
         """Arrays by local cell, lined up by rod and element on every rank."""
@@ -58,13 +65,23 @@ class Readout:
         fields = {field: x[dofs] for field, dofs in d.dofs.items()}
         if d.excess is not None and any(rod.section.damping for rod in self.problem.scene.rods):
             fields |= {f"{f}_viscous": d.excess.resultants[d.dofs[f]] for f in ("N", "m")}
-        return self.gather(nodal=nodal, **fields)
+        return self.gather(nodal=nodal, **fields) | self.touched()
+
+    def touched(self) -> State:
+        """What the nodes remember of contacts, if there are any, and the couples of friction."""
+        contacts = self.problem.contacts
+        if contacts is None:
+            return {}
+        couples = {} if self._couples is None else {"couples": self._couples.rates()}
+        return self.gather(touch=contacts.kept(), **couples)
 
     def restore(self, state: State) -> None:
         """Make a gathered state the current one."""
         d = self.problem.discretization
         for field, dofs in d.dofs.items():
             self.problem.x[dofs] = state[field][d.cell]
+        if self.problem.contacts is not None and "touch" in state:
+            self.problem.contacts.recall(state["touch"][d.cell])
 
     def energy(self) -> float:
         """Strain energy ∫ ½ n·C_n n + ½ m·C_m m ds at the current state [J]."""
@@ -88,6 +105,18 @@ class Readout:
         return tuple(
             self._history(rod, slice(a, b), s[a:b], R_0[a:b], stacked) for rod, (a, b) in enumerate(pairwise(first))
         )
+
+    def contacts(self, states: list[State]) -> tuple[ContactHistory, ...]:
+        """One history a contact from the gathered states."""
+        p = self.problem
+        if p.contacts is None:
+            return ()
+        lengths = node_lengths(p)[p.discretization.dofs["r"][:, self._order, :1]] * p.placement.length
+        shares = self.gather(share=lengths)["share"]
+        touched = np.stack([state["touch"] for state in states])[:, :, self._order]
+        first = list(pairwise(np.concatenate([[0], np.cumsum(p.discretization.elements)])))
+        of_rods = [_joined(shares[None, a:b])[0, :, 0] for a, b in first], [_joined(touched[:, a:b]) for a, b in first]
+        return contact_histories(p.scene.contacts, self.histories(states), *of_rods)
 
     def rates(self, states: list[State], second: float) -> tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...]:
         """Velocity [m/s] and spin [rad/s] of the nodes of each rod in space, from gathered states that hold them."""

@@ -19,13 +19,27 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.march import March
-    from dolfinrod.continuum.readout import State
+    from dolfinrod.continuum.moving import Moving
+    from dolfinrod.continuum.readout import Readout, State
     from dolfinrod.result import Result
     from dolfinrod.scene import Scene
 
     Array = NDArray[np.float64]
 
-__all__ = ["follow_on", "moving_state", "shapes", "take_up"]
+__all__ = ["follow_on", "moving_state", "rates", "shapes", "take_up"]
+
+
+def rates(problem: Moving, readout: Readout) -> State:
+    """Velocities "v" and spins "omega" at the nodes by cell, on every rank, in working units."""
+    d, lumped, kin = problem.discretization, problem.lumped, problem.kinematics
+    spin = kin.turned_back(problem.x[lumped.q], problem.motion.π)
+    spin = kin.turned_spin(problem.x[lumped.q], np.einsum("nij,nj->ni", lumped.J_inverse, spin))
+    moving = backend.function(d.space)
+    moving.x.array[lumped.r] = problem.motion.v
+    moving.x.array[lumped.q[:, : kin.n_spin]] = spin
+    moving.x.scatter_forward()
+    q = d.dofs["q"][:, :, : kin.n_spin]
+    return readout.gather(v=moving.x.array[d.dofs["r"]], omega=moving.x.array[q])
 
 
 def moving_state(march: March) -> State:
@@ -83,7 +97,12 @@ def take_up(march: March, state: Mapping[str, Array], mark: Mark) -> None:
     motion = Motion(v, π)
     if "a" in state:
         motion = Motion(v, π, own("a", d.dofs["r"], lumped.r), float(state["h"]))
-    march.take_up(replace(mark, x=x, motion=motion))
+    touched = None
+    if problem.contacts is not None:
+        problem.x[:] = x
+        problem.contacts.recall(state["touch"][d.cell])
+        touched = problem.contacts.memory()
+    march.take_up(replace(mark, x=x, motion=motion, touched=touched))
 
 
 def follow_on(march: March, start: Result, scene: Scene) -> None:

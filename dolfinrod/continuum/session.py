@@ -18,6 +18,7 @@ from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
+from dolfinrod.continuum.rubbing import remembers
 from dolfinrod.continuum.solver import check_degree, choose, record
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stability import Judge, Verdict
@@ -158,6 +159,11 @@ def opened(
         SceneError: An option that does not fit the scene.
     """
     check_degree(degree)
+    if remembers(scene):
+        raise SceneError(
+            "must not rub nor have multipliers here: such contact has a memory, and no tangent tells what is critical",
+            field="contacts",
+        )
     chosen = choose(scene, Spatial() if kinematics is None else kinematics)
     rods: Kinematics = PlanarRods() if isinstance(chosen, Planar) else SpatialRods()
     comm = MPI.COMM_WORLD if comm is None else comm

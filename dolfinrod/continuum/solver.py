@@ -21,6 +21,7 @@ from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
+from dolfinrod.continuum.rubbing import remembers, rubs
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stability import judging
 from dolfinrod.continuum.stepping import Path, StepFailed, Walk
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from dolfinrod.continuum.kinematics import Kinematics
+    from dolfinrod.continuum.readout import State
     from dolfinrod.result import StepLog
     from dolfinrod.scene import Scene
 
@@ -93,7 +95,7 @@ def _path(
     """All states that could be reached, and what stopped the stepping, if anything did."""
     started = time.perf_counter()
     rods: Kinematics = PlanarRods() if isinstance(kinematics, Planar) else SpatialRods()
-    with borrowed(comm, rods, degree, counts) as (discretization, is_new):
+    with borrowed(comm, rods, degree, counts, rubbed=rubs(scene)) as (discretization, is_new):
         problem = Problem(scene, discretization, Placement.of(scene, kinematics))
         newton, phase, readout = Newton(problem), PhaseCondition(problem), Readout(problem)
         path = _begin(scene, kinematics, readout, start, keeper)
@@ -114,8 +116,15 @@ def _path(
             seconds_solve=seconds_solve,
             seconds_stability=path.seconds_stability,
         )
-        notes = phase.notes if in_space or rods.dim == 3 else (*phase.notes, "stability judged in the plane only")
+        notes = (*phase.notes, *_judged(scene, in_space=in_space or rods.dim == 3))
         return record(problem, notes, readout, path, statistics, converged=failure is None), failure
+
+
+def _judged(scene: Scene, *, in_space: bool) -> tuple[str, ...]:
+    """What a user should know of how stability was judged."""
+    if remembers(scene):
+        return ("stability not judged: contact that rubs, or has multipliers, has a memory",)
+    return () if in_space else ("stability judged in the plane only",)
 
 
 def _heard(path: Path, keeper: Keeper | None, progress: Progress | None) -> Progress:
@@ -189,13 +198,14 @@ def _begin(
     t = 0.0
     if start is not None:
         state = readout.state()
-        if {f: a.shape for f, a in state.items()} != {f: a.shape for f, a in start.state.items()}:
+        if _shapes(state) != _shapes(start.state):
             raise SceneError("start must be a result on the same elements, degree and kinematics")
         place = readout.problem.placement
         before = Placement.of(start.scene, choose(start.scene, kinematics))
         readout.restore(start.state if place.coincides(before) else restated(start.state, before, place))
         if start.scene == scene and start.t[-1] < scene.motion.t_end:
             t = float(start.t[-1])
+        _touch(readout.problem, start, t)
     stable = True if start is None else start.log[-1].stable if start.log else None
     path = Path(t=[t], states=[readout.state()], energy=[readout.energy()], stable=stable)
     kept = None if keeper is None else keeper.read()
@@ -203,6 +213,22 @@ def _begin(
         path = resumed_path(path, kept)
         readout.restore(path.states[-1])
     return path
+
+
+def _touch(problem: Problem, start: Result, t: float) -> None:
+    """Take up what the nodes of an earlier result remember of the same surfaces; others they meet anew."""
+    contacts = problem.contacts
+    if contacts is None:
+        return
+    if start.scene.contacts == problem.scene.contacts:
+        contacts.recall(start.state["touch"][problem.discretization.cell], t)
+    else:
+        contacts.place(t)
+
+
+def _shapes(state: State) -> dict[str, tuple[int, ...]]:
+    """Of all fields but those of contacts."""
+    return {field: values.shape for field, values in state.items() if field not in ("touch", "couples")}
 
 
 def record(
@@ -220,4 +246,5 @@ def record(
         statistics=statistics,
         formulation=Formulation("continuum", d.kinematics.name, unknowns(d, path.states[-1]), problem.terms, notes),
         state=path.states[-1],
+        contacts=readout.contacts(path.states),
     )

@@ -138,6 +138,14 @@ class SpatialRods:
         c = self.cayley(q_0, q_1)
         return np.asarray((2.0 * quaternion.right(q_0) - c[:, :, None] * q_0[:, None, :]) / cosine)
 
+    def rotation_vector(self, q_0: Array, q_1: Array) -> Array:
+        """θ with R₁ = exp(θ) R₀, |θ| ≤ π, (n, 3)."""
+        return quaternion.logarithm(quaternion.multiply(q_1, q_0 * [1.0, -1.0, -1.0, -1.0]))
+
+    def rotation_vector_gradient(self, q_0: Array, q_1: Array) -> Array:
+        """∂θ/∂p₁ on the unit sphere, (n, 3, 4)."""
+        return quaternion.spin_to_rate(self.rotation_vector(q_0, q_1)) @ self.spin(q_1)
+
     def turned_spin(self, q: Array, v: Array) -> Array:
         """R(p) v, (n, 3)."""
         return quaternion.rotate(q, v)

@@ -32,6 +32,7 @@ from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
+from dolfinrod.continuum.rubbing import remembers
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.scene import Spatial
 
@@ -217,8 +218,8 @@ class LiftedJudge(Judge):
 
 
 @contextmanager
-def judging(problem: Problem, *, in_space: bool) -> Iterator[Judge]:
-    """A judge of the states of a problem.
+def judging(problem: Problem, *, in_space: bool) -> Iterator[Judge | None]:
+    """A judge of the states of a problem; none where what they touch has a memory: then no tangent tells.
 
     Args:
         problem: Owner of the states.
@@ -228,6 +229,9 @@ def judging(problem: Problem, *, in_space: bool) -> Iterator[Judge]:
         The judge; closed at the end.
     """
     d = problem.discretization
+    if remembers(problem.scene):
+        yield None
+        return
     if not in_space or d.kinematics.dim == 3:
         judge = Judge(problem)
         try:

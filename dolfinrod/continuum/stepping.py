@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum.neutral import equilibrium
+from dolfinrod.continuum.pressed import DIRECT
 from dolfinrod.continuum.stability import Verdict
 from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.result import StepLog
@@ -85,12 +86,14 @@ class Stride:
         failed: Shortest that did not succeed.
         successes: Steps taken since then.
         cuts: Failed attempts at the present step.
+        easy: Most iterations of a step that was easy.
     """
 
     length: float = np.inf
     failed: float = np.inf
     successes: int = 0
     cuts: int = 0
+    easy: int = EASY
 
     def fail(self, tried: float) -> None:
         """Half of what was tried comes next."""
@@ -101,7 +104,7 @@ class Stride:
         """The same comes next, or more after an easy step, up to what failed not long ago."""
         self.successes += 1
         grown = GROWTH * tried
-        if self.cuts == 0 and iterations <= EASY and (grown < self.failed or self.successes >= PATIENCE):
+        if self.cuts == 0 and iterations <= self.easy and (grown < self.failed or self.successes >= PATIENCE):
             self.length = max(self.length, grown)
         elif self.cuts:
             self.length = tried
@@ -118,7 +121,9 @@ def targets(scene: Scene, t_0: float, until: float = np.inf) -> list[float]:
     end = min(until, motion.t_end)
     steps = 1 if isinstance(motion, Dynamic) else motion.steps or 1
     even = np.arange(1, steps + 1) / steps * motion.t_end
-    corners = [t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))]
+    corners = [
+        t for part in (*scene.supports, *scene.loads, *scene.contacts) for t in kinks(getattr(part, "history", None))
+    ]
     return sorted({float(t) for t in (*even, *corners, end) if t_0 < t <= end})
 
 
@@ -145,9 +150,15 @@ class Walk:
     ) -> None:
         self.newton, self._phase, self._judge, self._readout = (newton, phase, judge, readout)
         self.path, self._progress = path, progress
-        self._stride = Stride()
+        # Points that come to touch take iterations, however short the step.
+        self._easy = EASY if newton.problem.contacts is None else DIRECT
+        self._stride = Stride(easy=self._easy)
         scene = newton.problem.scene
-        self._corners = {t for part in (*scene.supports, *scene.loads) for t in kinks(getattr(part, "history", None))}
+        self._corners = {
+            t
+            for part in (*scene.supports, *scene.loads, *scene.contacts)
+            for t in kinks(getattr(part, "history", None))
+        }
 
     def run(self, until: float = np.inf) -> None:
         """Meet every target up to a pseudo-time.
@@ -177,7 +188,7 @@ class Walk:
                 self._accept(t_next, outcome, state, verdict)
                 self._stride.succeed(tried, outcome.iterations)
                 if lost:
-                    self._stride = Stride()
+                    self._stride = Stride(easy=self._easy)
                 return
         self._readout.restore(path.states[-1])
         self._stride.fail(tried)
@@ -214,11 +225,14 @@ class Walk:
         """The last state, and what led to it once more, times a factor."""
         before, last = self.path.states[-2:]
         turn = self.newton.problem.kinematics.extrapolated
-        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in last if f != "q"}
+        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in last if f not in ("q", "touch", "couples")}
         return beyond | {"q": turn(before["q"], last["q"], factor)}
 
     def _accept(self, t: float, outcome: Outcome, state: State, verdict: Verdict) -> None:
-        path = self.path
+        path, contacts = self.path, self.newton.problem.contacts
+        if contacts is not None:
+            contacts.accept()
+            state |= self._readout.touched()
         path.t.append(t)
         path.states.append(state)
         path.energy.append(self._readout.energy())

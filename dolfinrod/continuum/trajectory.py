@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from dolfinrod.continuum.contact import Memory
     from dolfinrod.continuum.motion import Motion
     from dolfinrod.continuum.readout import State
     from dolfinrod.result import StepLog
@@ -56,6 +57,7 @@ class Mark:
         steps: Number of steps taken.
         iterations: Spent on them.
         strained: The step behind, where other strains than those of the state have resultants.
+        touched: What the nodes remember of surfaces, where there are any.
     """
 
     t: float
@@ -67,3 +69,4 @@ class Mark:
     steps: int = 0
     iterations: int = 0
     strained: tuple[Array, Array, Array] | None = None
+    touched: Memory | None = None

@@ -1,4 +1,4 @@
-"""Pictures of a result: shapes, resultants along the rods, the way of their tips, and the ledger of a motion."""
+"""Pictures of a result: shapes, resultants along the rods, ways of their tips, the ledger of a motion, contacts."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from mpl_toolkits import mplot3d
 
+from dolfinrod.output.contactpanels import CAPTION, draw_contacts, n_rows
 from dolfinrod.output.ledger import draw_ledger
+from dolfinrod.output.palette import COMPONENTS, RODS, STYLES
 from dolfinrod.output.scale import Scale, scale
+from dolfinrod.output.trace import COLOR, draw_surfaces
 from dolfinrod.output.view import View, view
 from dolfinrod.scene import Dynamic
 
@@ -26,10 +29,6 @@ if TYPE_CHECKING:
 
 __all__ = ["plot"]
 
-# Okabe and Ito's colours, told apart by colour-blind eyes too.
-COMPONENTS = ("#D55E00", "#0072B2", "#009E73")
-RODS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-STYLES = ("-", (0, (5, 2)), (0, (1, 1.5)), (0, (5, 1.5, 1, 1.5)))
 FREE = {"color": "0.55", "linestyle": (0, (4, 3)), "linewidth": 1.1}
 # Beyond so many, shapes between the first and the last would be a grey cloud.
 MOST_SHAPES = 12
@@ -43,7 +42,7 @@ MARGIN = 0.06
 
 
 def plot(result: Result, path: str | Path | None = None) -> Figure:
-    """Deformed over stress-free shape, resultants along the rods, ways of the tips and energies over load or time.
+    """Deformed over stress-free shape, resultants along the rods, ways of the tips, energies over time, and contacts.
 
     Args:
         result: What was found.
@@ -53,19 +52,22 @@ def plot(result: Result, path: str | Path | None = None) -> Figure:
         The figure, made without a window.
     """
     panels = 4 if len(result.energy) > 1 else 3
-    figure = Figure(figsize=(11.0, 2.2 * panels + 1.0), layout="constrained")
+    rows = panels + n_rows(result)
+    figure = Figure(figsize=(11.0, 2.2 * rows + 1.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, wspace=0.03, hspace=0.03)
-    grid = figure.add_gridspec(panels, 2, width_ratios=(1.25, 1.0))
+    grid = figure.add_gridspec(rows, 2, width_ratios=(1.25, 1.0))
     drawn = _shapes(result)
     seen = view(np.concatenate([points for rod in drawn for points in rod]))
     plane = len(seen.axes) == 2
-    shape = figure.add_subplot(grid[:, 0], projection="rectilinear" if plane else mplot3d.Axes3D.name)
-    _draw_shapes(shape, drawn, seen, _length(result))
+    shape = figure.add_subplot(grid[:panels, 0], projection="rectilinear" if plane else mplot3d.Axes3D.name)
+    _draw_shapes(shape, drawn, seen, result)
     along = [figure.add_subplot(grid[i, 1]) for i in range(2)]
     _draw_resultants(along, result)
     _draw_tips(figure.add_subplot(grid[2, 1]), result)
     if panels == 4:
         draw_ledger(figure.add_subplot(grid[3, 1]), result)
+    if result.contacts:
+        draw_contacts(figure, grid, result)
     figure.suptitle(_headline(result), fontsize=11)
     if path is not None:
         figure.savefig(path, dpi=130)
@@ -81,7 +83,8 @@ def _headline(result: Result) -> str:
     end = "" if result.converged else ", not converged beyond"
     said = f"{result.formulation.model} model, {result.formulation.kinematics}: {states}{unit}{end}"
     rule = "the energies change by the works alone" if moving else "the flatter the load path, the stiffer the rod"
-    return f"{said}\nResultants may jump at supports and point loads only; {rule}."
+    contact = f"\n{CAPTION}" if result.contacts else ""
+    return f"{said}\nResultants may jump at supports and point loads only; {rule}.{contact}"
 
 
 def _moving(result: Result) -> bool:
@@ -105,8 +108,9 @@ def _length(result: Result) -> Scale:
     return scale(max(float(np.ptp(history.r, axis=(0, 1)).max()) for history in result.rods), "m")
 
 
-def _draw_shapes(axes: Any, rods: list[list[Array]], seen: View, unit: Scale) -> None:
+def _draw_shapes(axes: Any, rods: list[list[Array]], seen: View, result: Result) -> None:
     """Every rod in its colour: last state thick, earlier ones pale, stress free dashed; one scale in all directions."""
+    unit = _length(result)
     for k, (free, *states) in enumerate(rods):
         color = RODS[k % len(RODS)]
         axes.plot(*(unit.factor * seen.seen(free)), **FREE)
@@ -117,14 +121,16 @@ def _draw_shapes(axes: Any, rods: list[list[Array]], seen: View, unit: Scale) ->
     _frame(axes, points)
     for axis, name in zip("xyz", seen.names, strict=False):
         getattr(axes, f"set_{axis}label")(f"{name} [{unit.unit}]")
-    axes.set_title("Deformed over stress-free shape", fontsize=11, pad=26)
     key = [Line2D([], [], **FREE, label="stress free")]
     if len(rods[0]) > 2:
         key.append(Line2D([], [], color="0.3", linewidth=0.9, alpha=0.5, label="on the way"))
+    if draw_surfaces(axes, result, seen, rods[0][0][0], unit.factor):
+        key.append(Line2D([], [], color=COLOR, linewidth=1.3, label="surface"))
     few = 1 < len(rods) <= len(RODS)
     names = [f"rod {k}" for k in range(len(rods))] if few else ["deformed"]
     for name, color in zip(names, RODS if few or len(rods) == 1 else ("0.3",), strict=False):
         key.append(Line2D([], [], color=color, linewidth=2.4, label=name))
+    axes.set_title("Deformed over stress-free shape", fontsize=11, pad=10 + 16 * -(-len(key) // 4))
     axes.legend(handles=key, fontsize=8, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
 
 

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["draw_ledger"]
 
-# Energies that the rods have are lines, works done on them dashed; the colours are Okabe and Ito's.
+# Energies that the rods have are lines, works done on them dashed; the colours are Okabe and Ito's, those of contact
+# Tol's: wine, olive, indigo.
 LINES = {
     "kinetic": ("#D55E00", "-"),
     "strain": ("#0072B2", "-"),
@@ -24,6 +25,9 @@ LINES = {
     "support work": ("#E69F00", "--"),
     "drag": ("#56B4E9", "--"),
     "damping": ("0.2", "--"),
+    "contact": ("#882255", "-"),
+    "friction": ("#999933", "--"),
+    "wall work": ("#332288", "--"),
     "numerical": ("0.6", "--"),
 }
 OTHER = ("0.45", ":")

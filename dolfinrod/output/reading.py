@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Any, get_args, get_origin, get_type_hints
 import numpy as np
 
 from dolfinrod.output.arrays import read_arrays
+from dolfinrod.output.contacts import read_contact, summarised, weight
 from dolfinrod.output.record import FORMAT, RECORD, SCENE, STATE, rod_table
+from dolfinrod.output.rows import ROUND_OFF
 from dolfinrod.output.table import read_table
-from dolfinrod.result import Formulation, Result, RodHistory, Statistics, StepLog
+from dolfinrod.result import ContactHistory, Formulation, Result, RodHistory, Statistics, StepLog
 from dolfinrod.scene import Scene, SceneError, toml
 
 if TYPE_CHECKING:
@@ -24,9 +26,6 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = ["load"]
-
-# Tables keep every digit, so that what belongs together differs by round-off of the scene's own arc lengths at most.
-ROUND_OFF = 1e-9
 
 
 def load(folder: Path, *, scene: Scene | None = None) -> Result:
@@ -69,6 +68,7 @@ def _load(folder: Path, scene: Scene | None) -> Result:
         statistics=_made(Statistics, _taken(record, "statistics", dict, path), f"{path}: statistics"),
         formulation=_made(Formulation, _taken(record, "formulation", dict, path), f"{path}: formulation"),
         state=read_arrays(folder / STATE),
+        contacts=_contacts(folder, record, scene, t, tuple(rod.s for rod in rods)),
     )
 
 
@@ -104,7 +104,39 @@ def _check_lengths(scene: Scene, rods: tuple[RodHistory, ...], folder: Path) -> 
             raise SceneError(wrong, field=str(folder / rod_table(k)))
 
 
-def _taken(record: dict[str, Any], name: str, kind: Any, path: Path) -> Any:
+def _contacts(
+    folder: Path, record: dict[str, Any], scene: Scene, t: Array, nodes: tuple[Array, ...]
+) -> tuple[ContactHistory, ...]:
+    """Tables of all contacts, which go with the record, the scene and its rods; none where none were written."""
+    path = folder / RECORD
+    told = _taken(record, "contacts", list, path) if "contacts" in record else []
+    if not told:
+        return ()
+    if len(told) != len(scene.contacts):
+        raise SceneError(f"must have the {len(scene.contacts)} contacts of the scene, got {len(told)}", field=str(path))
+    found = tuple(read_contact(folder, k, contact, t, nodes) for k, contact in enumerate(scene.contacts))
+    for k, (contact, entry) in enumerate(zip(found, told, strict=True)):
+        _check_summary(contact, entry, k, path)
+    return found
+
+
+def _check_summary(contact: ContactHistory, entry: Any, k: int, path: Path) -> None:
+    """Record and tables are of the same contact; sums differ by round-off at most."""
+    where = f"{path}: contacts[{k}]"
+    if not isinstance(entry, dict):
+        raise SceneError(f"must be a table, got {entry!r}", field=where)
+    for (name, values), most in zip(summarised(contact).items(), weight(contact).values(), strict=True):
+        told = _taken(entry, name, list[float] if values.ndim == 1 else list[list[float]], where)
+        try:
+            doubles = np.array(told, dtype=np.float64)
+            same = doubles.shape == values.shape and bool((np.abs(doubles - values) <= ROUND_OFF * most).all())
+        except (ValueError, OverflowError):  # rows of different lengths, numbers beyond doubles
+            same = False
+        if not same:
+            raise SceneError(f"must have the {name} of the tables contact-{k}-rod-….csv, got another", field=where)
+
+
+def _taken(record: dict[str, Any], name: str, kind: Any, path: Path | str) -> Any:
     """A value that must be there, of its kind."""
     if name not in record:
         raise SceneError(f"must have an entry {name!r}, got none", field=str(path))

@@ -18,7 +18,7 @@ MOST_ROWS = 20
 
 
 def summary(model: str, result: Result) -> str:
-    """Outcome, cost and tip of a solve, its steps where there are several; stability at rest, energies in motion.
+    """Outcome, cost and tip of a solve, what contacts carry, steps where there are several; stability, or energies.
 
     Args:
         model: Who solved it.
@@ -32,10 +32,21 @@ def summary(model: str, result: Result) -> str:
         f"{cost.dofs} unknowns; {'time' if moving else 'load'} steps: {cost.load_steps}, "
         f"Newton iterations: {cost.newton_iterations}, {1e3 * cost.seconds_solve:.3g} ms{state}",
         f"  tip {_vector(result.tip, digits=10)} m",
+        *_contacts(result),
         *(_ledger(result) if moving else ()),
         *(_steps(result.log, moving) if len(result.log) > 1 else ()),
     ]
     return "\n".join(lines)
+
+
+def _contacts(result: Result) -> list[str]:
+    """Length and resultant of each contact at the last stored state."""
+    pairs = zip(result.scene.contacts, result.contacts, strict=False)
+    return [
+        f"  contact {k}, {type(posed.surface).__name__.lower()}: {found.length[-1]:.6g} m in contact, "
+        f"force {_vector(found.force[-1])} N"
+        for k, (posed, found) in enumerate(pairs)
+    ]
 
 
 def _ledger(result: Result) -> list[str]:
@@ -69,7 +80,7 @@ def _stability(row: StepLog) -> str:
 
 
 def contents(scene: Scene) -> list[str]:
-    """Rods, supports, loads, air, motion, velocities at the start and detected kinematics of a scene.
+    """Rods, supports, loads, contacts, air, motion, velocities at the start and detected kinematics of a scene.
 
     Args:
         scene: Any scene.
@@ -83,6 +94,7 @@ def contents(scene: Scene) -> list[str]:
         *(line for k, rod in enumerate(scene.rods) for line in _rod(k, rod)),
         *(f"supports[{i}]: {support}" for i, support in enumerate(scene.supports)),
         *(f"loads[{i}]: {load}" for i, load in enumerate(scene.loads)),
+        *(f"contacts[{i}]: {contact}" for i, contact in enumerate(scene.contacts)),
         *([f"air: {scene.air}"] if scene.air is not None else ()),
         f"motion: {scene.motion}",
         *(f"velocities[{i}]: {velocity}" for i, velocity in enumerate(scene.velocities)),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -16,9 +16,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["write_series"]
+__all__ = ["write_collection", "write_series"]
 
 COLLECTION = "rods.pvd"
+TOUCHING = ("gap", "pressure", "traction", "slip", "state")
 
 
 def write_series(result: Result, folder: Path) -> None:
@@ -26,7 +27,9 @@ def write_series(result: Result, folder: Path) -> None:
 
     Point data: arc length `s`, `displacement` from the stress-free shape, section frame `d1`, `d2`, `d3`, strains
     `gamma`, `kappa`, resultants `n`, `m` in the section frame, `force` and `moment` in space, of a motion `v` and
-    `omega` in space too, all in SI units. Cell data: `rod`, counted from 0.
+    `omega` in space too, all in SI units. Of the first contact `contact_0_gap`, `contact_0_pressure`,
+    `contact_0_traction`, `contact_0_slip` and `contact_0_state`, and so on; rods that it does not concern have no gap,
+    nan, and zeros. Cell data: `rod`, counted from 0.
 
     Args:
         result: What was found.
@@ -44,10 +47,10 @@ def write_series(result: Result, folder: Path) -> None:
     names = [f"rods-{i:04d}.vtu" for i in range(len(result.t))]
     for i, name in enumerate(names):
         points = np.concatenate([rod.r[i] for rod in result.rods])
-        data = {"displacement": points - np.concatenate(stress_free), **_at_nodes(result, i)}
+        data = {"displacement": points - np.concatenate(stress_free), **_at_nodes(result, i), **_touched(result, i)}
         mesh = meshio.Mesh(points, cells, point_data=data, cell_data={"rod": list(rods)})
         meshio.write(folder / name, mesh)
-    _write_collection(folder / COLLECTION, result.t, names)
+    write_collection(folder / COLLECTION, result.t, [[name] for name in names])
 
 
 def _at_nodes(result: Result, i: int) -> dict[str, Array]:
@@ -63,11 +66,38 @@ def _at_nodes(result: Result, i: int) -> dict[str, Array]:
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
-def _write_collection(path: Path, t: Array, names: list[str]) -> None:
-    """The list of files with their pseudo-times or times."""
+def _touched(result: Result, i: int) -> dict[str, NDArray[Any]]:
+    """What each contact does at stored time i, node after node of all rods."""
+    data: dict[str, NDArray[Any]] = {}
+    for k, contact in enumerate(result.contacts):
+        for name in TOUCHING:
+            parts = [
+                _untouched(name, len(rod.s)) if touching is None else getattr(touching, name)[i]
+                for rod, touching in zip(result.rods, contact.rods, strict=True)
+            ]
+            data[f"contact_{k}_{name}"] = np.concatenate(parts)
+    return data
+
+
+def _untouched(name: str, n: int) -> NDArray[Any]:
+    """The same of a rod that a contact does not concern."""
+    if name == "gap":
+        return np.full(n, np.nan)
+    return np.zeros((n, 3)) if name == "traction" else np.zeros(n, dtype=np.int8 if name == "state" else np.float64)
+
+
+def write_collection(path: Path, t: Array, shown: list[list[str]]) -> None:
+    """Write a list of files with their pseudo-times or times.
+
+    Args:
+        path: File to write.
+        t: Stored times.
+        shown: Names of the files at each of them.
+    """
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
     collection = ElementTree.SubElement(root, "Collection")
-    for time, name in zip(t, names, strict=True):
-        ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), part="0", file=name)
+    for time, names in zip(t, shown, strict=True):
+        for part, name in enumerate(names):
+            ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), part=str(part), file=name)
     ElementTree.indent(root)
     ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)

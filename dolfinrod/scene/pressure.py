@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -13,9 +13,6 @@ from dolfinrod.scene.quantity import assign, number, positive
 __all__ = ["AugmentedLagrangian", "NormalLaw", "Penalty", "SmoothPenalty"]
 
 Array = NDArray[np.float64]
-
-# Ways, in feet, below which a difference of energies loses digits.
-SHORT = 1e-3
 
 
 class NormalLaw(Protocol):
@@ -31,8 +28,16 @@ class NormalLaw(Protocol):
         """Gap at which contact begins [m]."""
         ...
 
+    def softened(self, by: float) -> NormalLaw:
+        """The same, softer by a factor."""
+        ...
+
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """p and dp/dg, shapes (n,) [N/m, N/m²], at gaps g [m] and multipliers λ [N/m]."""
+        ...
+
+    def drawn(self, g: Array, λ: Array) -> tuple[Array, Array]:
+        """The same for points that an iteration keeps pressed though they have left the wall: p may be below zero."""
         ...
 
     def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
@@ -74,10 +79,18 @@ class Penalty:
         """A halo of 1 µm, ε_N = 4e5 N/m²: for fibres of some 20 µm that lie against each other."""
         return cls(4e5, 1e-6)
 
+    def softened(self, by: float) -> Penalty:
+        """See `NormalLaw`."""
+        return replace(self, eps_N=self.eps_N / by)
+
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`; λ has no part in it."""
         p = self.eps_N * np.maximum(self.g_0 - g, 0.0)
         return p, np.where(p > 0.0, -self.eps_N, 0.0)
+
+    def drawn(self, g: Array, λ: Array) -> tuple[Array, Array]:
+        """See `NormalLaw`."""
+        return self.eps_N * (self.g_0 - g), np.full_like(g, -self.eps_N)
 
     def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`."""
@@ -119,21 +132,33 @@ class SmoothPenalty:
             g_0=number(self.g_0, "SmoothPenalty.g_0", "m"),
         )
 
+    def softened(self, by: float) -> SmoothPenalty:
+        """See `NormalLaw`."""
+        return replace(self, eps_N=self.eps_N / by)
+
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`; λ has no part in it."""
         δ = np.maximum(self.g_0 - g, 0.0)
         bent = np.minimum(δ, self.foot)
         return self.eps_N * (0.5 * bent**2 / self.foot + δ - bent), -self.eps_N * (bent / self.foot)
 
+    def drawn(self, g: Array, λ: Array) -> tuple[Array, Array]:
+        """The law itself: a smooth foot has no branch to go on with."""
+        return self.pressure(g, λ)
+
     def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
-        """See `NormalLaw`; over short ways by Simpson's rule, exact but where pieces of the law meet."""
-        middle, end = self.pressure(0.5 * (g + h), λ), self.pressure(h, λ)
-        short = np.abs(h - g) <= SHORT * self.foot
-        way = np.where(short, 1.0, h - g)
-        mean = (self.energy(g, λ) - self.energy(h, λ)) / way
-        simpson = (self.pressure(g, λ)[0] + 4.0 * middle[0] + end[0]) / 6.0
-        slope = np.where(short, (2.0 * middle[1] + end[1]) / 6.0, (end[0] - mean) / way)
-        return np.where(short, simpson, mean), slope
+        """See `NormalLaw`; by Simpson's rule on each piece of the law, which is exact for its parabolas."""
+        way = h - g
+        least, most = np.minimum(way, 0.0), np.maximum(way, 0.0)
+        met = [np.clip(joint - g, least, most) for joint in (self.g_0, self.g_0 - self.foot)]
+        pieces = np.sort([0.0 * g, *(part / np.where(way == 0.0, 1.0, way) for part in met), 0.0 * g + 1.0], axis=0)
+        a, b = pieces[:-1], pieces[1:]
+        mean, slope = np.zeros_like(a), np.zeros_like(a)
+        for s, weight in ((a, 1.0), (0.5 * (a + b), 4.0), (b, 1.0)):
+            p, p_g = self.pressure(g + s * way, λ)
+            mean += weight * p
+            slope += weight * s * p_g
+        return (mean * (b - a)).sum(axis=0) / 6.0, (slope * (b - a)).sum(axis=0) / 6.0
 
     def energy(self, g: Array, λ: Array) -> Array:
         """See `NormalLaw`."""
@@ -170,10 +195,18 @@ class AugmentedLagrangian:
             tolerance=positive(self.tolerance, "AugmentedLagrangian.tolerance", "m"),
         )
 
+    def softened(self, by: float) -> AugmentedLagrangian:
+        """See `NormalLaw`."""
+        return replace(self, eps_N=self.eps_N / by)
+
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`."""
         p = np.maximum(λ - self.eps_N * g, 0.0)
         return p, np.where(p > 0.0, -self.eps_N, 0.0)
+
+    def drawn(self, g: Array, λ: Array) -> tuple[Array, Array]:
+        """See `NormalLaw`."""
+        return λ - self.eps_N * g, np.full_like(g, -self.eps_N)
 
     def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
         """The pressure at h: multipliers hold at the end of a step."""

@@ -25,6 +25,7 @@ class Pressed:
         n: Normals, shape (n, 3).
         n_X: ∂n/∂X, shape (n, 3, 3).
         radius: Of the rods, shape (n,) [m].
+        expected: Line load under which the normals turn, p but for an iterate, shape (n,) [N/m].
     """
 
     p: Array
@@ -32,10 +33,11 @@ class Pressed:
     n: Array
     n_X: Array
     radius: Array
+    expected: Array
 
     def gradient(self) -> Array:
         """∂(p n)/∂X, shape (n, 3, 3)."""
-        return self.n[:, :, None] * self.p_X[:, None, :] + self.p[:, None, None] * self.n_X
+        return self.n[:, :, None] * self.p_X[:, None, :] + self.expected[:, None, None] * self.n_X
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +47,7 @@ class Rubbing:
     Args:
         traction: Shape (n, 3) [N/m].
         anchored: Displacement from the anchors, shape (n, 3) [m].
-        slipped: Way of the anchors in the step, shape (n,) [m].
+        slipped: Way of the anchors in the step under pressure, shape (n,) [m].
         u: Displacement from where the anchors were, shape (n, 3) [m].
         slides: Whether the anchors moved, shape (n,).
     """
@@ -84,7 +86,7 @@ class Step:
     rubbing: Rubbing | None
 
 
-def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float) -> Rubbing:
+def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: NDArray[np.bool_]) -> Rubbing:
     """Return mapping: the anchors follow where they would pull harder than μ p.
 
     Args:
@@ -92,16 +94,17 @@ def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float) -> Rubbing:
         v: Displacement of the rods' surface from the anchors, its part along the normal included, shape (n, 3).
         μ: Coefficient of friction.
         ε_T: Stiffness of the anchors [N/m²].
+        clings: Points whose anchors stay however hard they pull, shape (n,).
 
     Returns:
         Tractions and where the anchors are.
     """
     u = v - np.einsum("ni,ni->n", v, pressed.n)[:, None] * pressed.n
-    far, reach = np.sqrt(np.einsum("ni,ni->n", u, u)), μ * pressed.p / ε_T
-    slides = far > reach
+    far, reach = np.sqrt(np.einsum("ni,ni->n", u, u)), μ * np.maximum(pressed.p, 0.0) / ε_T
+    slides = (far > reach) & ~clings
     held = np.where(slides, reach / np.where(slides, far, 1.0), 1.0)
     anchored = held[:, None] * u
-    return Rubbing(-ε_T * anchored, anchored, np.where(slides, far - reach, 0.0), u, slides)
+    return Rubbing(-ε_T * anchored, anchored, np.where(slides & (pressed.p > 0.0), far - reach, 0.0), u, slides)
 
 
 def traction_gradient(pressed: Pressed, rubbing: Rubbing, u_q: Array, μ: float, ε_T: float) -> Array:
@@ -120,7 +123,7 @@ def traction_gradient(pressed: Pressed, rubbing: Rubbing, u_q: Array, μ: float,
     far = np.sqrt(np.einsum("ni,ni->n", rubbing.u, rubbing.u))
     slides = rubbing.slides
     e = rubbing.u / np.where(far > 0.0, far, 1.0)[:, None]
-    shrunk = np.where(slides, μ * pressed.p / (ε_T * np.where(slides, far, 1.0)), 1.0)[:, None, None]
+    shrunk = np.where(slides, μ * np.maximum(pressed.p, 0.0) / (ε_T * np.where(slides, far, 1.0)), 1.0)[:, None, None]
     along = np.where(slides, 1.0, 0.0)[:, None, None] * e[:, :, None] * np.einsum("ni,nij->nj", e, u_q)[:, None, :]
     follows = np.where(slides, μ, 0.0)[:, None, None] * e[:, :, None] * pressed.p_X[:, None, :]
     return -ε_T * shrunk * (u_q - along) - follows

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
+from dolfinrod.scene.pressing import Pressing
 from dolfinrod.scene.reply import OPEN, SLIDES, STICKS, Booked, Gradient, Reply
 from dolfinrod.scene.rubbing import Pressed, Step, rubbed, skew, slip_gradients, traction_gradient
 from dolfinrod.scene.surfaces import REST, Pose
@@ -39,27 +40,39 @@ class Touch:
 
     def __init__(self, contact: Contact, radius: Array, t_end: float, level: float = 1.0) -> None:
         self.contact, self._radius, self._t_end, self._level = contact, radius, t_end, level
-        self._law, self._friction = contact.law, contact.friction
-        self._ε_T = self._law.eps_N
-        if isinstance(self._friction, Coulomb) and self._friction.eps_T is not None:
-            self._ε_T = self._friction.eps_T
+        self._friction, self._pressing = contact.friction, Pressing(contact.law, radius)
+        anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
+        self._stiffness = contact.law.eps_N if anchors is None else anchors
+        self._ε_T = self._stiffness
         n = len(radius)
-        self._λ, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
-        self._state = np.zeros(n, dtype=np.int8)
+        self._λ_0, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
+        self._state, self._state_0 = np.zeros(n, dtype=np.int8), np.zeros(n, dtype=np.int8)
         self.changed = False
+
+    @property
+    def turns(self) -> bool:
+        """Whether what acts, and its moment, depends on how the sections turn."""
+        return isinstance(self._friction, Coulomb)
 
     def place(self, x: Array, t: float) -> None:
         """The rods are at x; nothing is remembered."""
         self._t_0 = t
         self._x_0, self._X_0 = x.copy(), self._pose(t).back(x)
         self._gap_0 = self._law_gap(self._X_0)
-        for memory in (self._λ, self._slip, self._u):
+        for memory in (self._λ_0, self._slip, self._u):
             memory[:] = 0.0
-        self._state[:] = OPEN
+        self._state, self._state_0 = np.full_like(self._state, OPEN), np.full_like(self._state, OPEN)
         self.begin(t)
 
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
+        self._λ = self._λ_0.copy()
+        self._pressing.begin()
+        self._clings = np.zeros(len(self._radius), dtype=bool)
+        self._ε_T = self._stiffness
+        # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
+        unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
+        self._afar = unloaded & (self._gap_0 > self._pressing.law.g_0)
         self._t, self._dt = t, t - self._t_0
         start, self._end, middle = (self._pose(s) for s in (self._t_0, t, self._t_0 + self._level * self._dt))
         self._acting, self._start = middle, start
@@ -90,17 +103,19 @@ class Touch:
         pressure, normal, traction, moment = np.zeros(n), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros((n, 3))
         state = np.zeros(n, dtype=np.int8)
         pressed, on = step.pressed, step.on
-        pressure[on], normal[on], state[on] = pressed.p, pressed.n @ Q.T, SLIDES
+        pressure[on], normal[on] = pressed.p, pressed.n @ Q.T
+        state[on] = np.where(pressed.p != 0.0, SLIDES, OPEN)
         if step.rubbing is not None:
             t = step.rubbing.traction
-            state[on] = np.where(step.rubbing.slides, SLIDES, STICKS)
+            state[on] = np.where(pressed.p != 0.0, np.where(step.rubbing.slides, SLIDES, STICKS), OPEN)
             traction[on] = t @ Q.T
             moment[on] = -pressed.radius[:, None] * np.cross(pressed.n, t) @ Q.T
         elif isinstance(self._friction, CreepingCoulomb):
             v, speed = self._velocity(x[on])
             traction[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
         self.changed = not np.array_equal(state, self._state)
-        self._state, self._x, self._turn = state, x.copy(), turn
+        self._state, self._x, self._turn = state, x.copy(), turn.copy()
+        self._clings = np.zeros(n, dtype=bool)
         self._reply = Reply(step.gap, pressure, normal, traction, moment, state)
         return self._reply
 
@@ -109,33 +124,36 @@ class Touch:
         closest = self.contact.surface.closest(X)
         gap, at_end = closest.distance - self._radius, closest.normal
         if self._level == 1.0:
-            p, slope = self._law.pressure(gap, self._λ)
+            p, slope, touch, expected = self._pressing.at(X, gap, self._λ)
         else:
-            p, slope = self._law.mean(self._gap_0, gap, self._λ)
+            p, slope, touch, expected = self._pressing.mean(self._gap_0, gap, self._λ)
             closest = self.contact.surface.closest((1.0 - self._level) * self._X_0 + self._level * X)
-        on = np.flatnonzero(p > 0.0)
+        p_X, on = slope[:, None] * at_end, np.flatnonzero(touch)
+        self._pressing.led(X, p, p_X, touch)
         pressed = Pressed(
-            p[on],
-            slope[on, None] * at_end[on],
-            closest.normal[on],
-            self._level * closest.curvature[on],
-            self._radius[on],
+            p[on], p_X[on], closest.normal[on], self._level * closest.curvature[on], self._radius[on], expected[on]
         )
         share, none = np.ones(len(on)), np.zeros((len(on), 3))
         if not isinstance(self._friction, Coulomb):
             return Step(X, turned, gap, on, pressed, share, none, none, None)
         # What came from afar in this step has touched only over the last part of its way.
-        far = self._gap_0[on] > self._law.g_0
-        way = np.where(far, self._gap_0[on] - gap[on], 1.0)
-        share = np.where(far, np.clip((self._law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
+        far = self._afar[on]
+        way = np.where(far & (self._gap_0 > gap)[on], (self._gap_0 - gap)[on], 1.0)
+        share = np.where(far, np.clip((self._pressing.law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
         w = (X - self._X_0)[on] - pressed.radius[:, None] * np.cross(turned[on], pressed.n)
         v = self._u[on] + share[:, None] * w
-        return Step(X, turned, gap, on, pressed, share, w, v, rubbed(pressed, v, self._friction.mu, self._ε_T))
+        rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on])
+        return Step(X, turned, gap, on, pressed, share, w, v, rubbing)
+
+    @property
+    def _rate(self) -> float:
+        """1/Δt; where the rods were placed nothing moves yet."""
+        return 1.0 / self._dt if self._dt > 0.0 else 0.0
 
     def _velocity(self, x: Array) -> tuple[Array, Array]:
         """Velocity of the points that touch in space, and √(|v|² + v_0²)."""
         assert isinstance(self._friction, CreepingCoulomb)
-        v = (x - self._x_0[self._step.on]) / self._dt
+        v = (x - self._x_0[self._step.on]) * self._rate
         return v, np.sqrt(np.einsum("ni,ni->n", v, v) + self._friction.v_0**2)
 
     def gradient(self) -> Gradient:
@@ -145,7 +163,7 @@ class Touch:
         none = np.zeros_like(f_x)
         if step.rubbing is not None:
             assert isinstance(self._friction, Coulomb)
-            u_x, u_turn = slip_gradients(step, self._gap_0[step.on], self._law.g_0)
+            u_x, u_turn = slip_gradients(step, self._gap_0[step.on], self._pressing.law.g_0)
             still, law = replace(pressed, p_X=np.zeros_like(pressed.p_X)), (self._friction.mu, self._ε_T)
             t_x = traction_gradient(pressed, step.rubbing, u_x, *law)
             t_turn = traction_gradient(still, step.rubbing, u_turn, *law)
@@ -166,11 +184,20 @@ class Touch:
         p, Q = self._step.pressed.p, self._acting.Q
         bent = np.eye(3) / speed[:, None, None] - v[:, :, None] * v[:, None, :] / (speed**3)[:, None, None]
         follows = (v @ Q / speed[:, None])[:, :, None] * self._step.pressed.p_X[:, None, :]
-        return -friction.mu * (follows + Q.T @ bent @ self._end.Q * (p / self._dt)[:, None, None])
+        return -friction.mu * (follows + Q.T @ bent @ self._end.Q * (p * self._rate)[:, None, None])
+
+    def cling(self) -> None:
+        """Begin the iteration with what was pressed and stuck before, wherever the wall has gone meanwhile."""
+        self._clings = self._pressing.cling(self._state_0 > OPEN, self._gap_0) & (self._state_0 != SLIDES)
+
+    def soften(self, by: float) -> None:
+        """Let the wall be softer by a factor until the next `begin`, or `soften(1)`: on the way to what is pressed."""
+        self._pressing.soften(by)
+        self._ε_T = self._stiffness / by
 
     def renew(self) -> bool:
         """Give the multipliers what has just acted; whether that was within the tolerance of the law already."""
-        tolerance = getattr(self._law, "tolerance", None)
+        tolerance = getattr(self.contact.law, "tolerance", None)
         if tolerance is None:
             return True
         touching = self._reply.pressure > 0.0
@@ -181,7 +208,10 @@ class Touch:
 
     def accept(self) -> Booked:
         """The step counts, with what has acted in it."""
-        step, reply, force = self._step, self._reply, self._reply.force
+        step, reply = self._step, self._reply
+        # What acts against velocities in space knows no wall.
+        creeps = isinstance(self._friction, CreepingCoulomb)
+        force = reply.pressure[:, None] * reply.normal if creeps else reply.force
         on, anchors = step.on, 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
         path, turned = step.X - self._X_0, step.turned
         in_wall = np.einsum("ni,ni->n", force @ self._acting.Q, path)
@@ -192,25 +222,32 @@ class Touch:
         rubbed = anchors
         if step.rubbing is not None:
             self._u[on], self._slip[on] = step.rubbing.anchored, self._slip[on] + step.rubbing.slipped
-            rubbed[on] -= step.share * np.einsum("ni,ni->n", step.rubbing.traction, step.w)
-        elif isinstance(self._friction, CreepingCoulomb):
+            rubbed[on] -= np.einsum("ni,ni->n", step.rubbing.traction, step.w)
+        elif creeps:
             rubbed = -np.einsum("ni,ni->n", reply.traction, moved)
         held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
         self._x_0, self._X_0, self._gap_0, self._t_0 = self._x, step.X, step.gap, self._t
-        return Booked(self._law.energy(step.gap, self._λ) + held, rubbed - held, pushed)
+        self._λ_0, self._state_0 = self._λ.copy(), self._state
+        return Booked(self.stored(), rubbed - held, pushed)
+
+    def stored(self) -> Array:
+        """Energy per length in penetrations and anchors at the start of the step, shape (n,) [J/m]."""
+        held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
+        return np.asarray(self._pressing.law.energy(self._gap_0, self._λ_0) + held)
 
     def memory(self) -> dict[str, Array]:
         """All that the points remember, one row a point: what `recall` takes."""
         return {
             "x": self._x_0.copy(),
             "anchored": self._u.copy(),
-            "multiplier": self._λ.copy(),
+            "multiplier": self._λ_0.copy(),
             "slip": self._slip.copy(),
-            "state": self._state.astype(float),
+            "state": self._state_0.astype(float),
         }
 
     def recall(self, memory: Mapping[str, Array], t: float) -> None:
         """Go back, or on, to what was remembered at time t."""
         self.place(memory["x"], t)
-        self._u, self._λ, self._slip = (memory[name].copy() for name in ("anchored", "multiplier", "slip"))
-        self._state = memory["state"].astype(np.int8)
+        self._u, self._λ_0, self._slip = (memory[name].copy() for name in ("anchored", "multiplier", "slip"))
+        self._state = self._state_0 = memory["state"].astype(np.int8)
+        self.begin(t)

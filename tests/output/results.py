@@ -55,6 +55,101 @@ def flight() -> dr.Result:
     )
 
 
+ROUND = replace(GENERAL, radius=0.01)
+FLOOR, WALL = (
+    dr.Plane((0.0, -0.01, 0.0), (0, 1, 0)),
+    dr.Plane((0, 0, 0), (1, 0, 0), dr.WallMotion(velocity=(0.1, 0, 0))),
+)
+LYING = dr.Scene(
+    rods=[dr.Rod.straight(1.0, ROUND), dr.Rod.straight(0.5, ROUND, start=(0.2, 0.1, 0.0))],
+    contacts=[
+        dr.Contact(FLOOR, dr.Penalty(1e6, 5e-5), dr.Coulomb(0.3)),
+        dr.Contact(WALL, dr.AugmentedLagrangian(1e6, 1e-9), rod=1),
+    ],
+)
+MU, N_S = 0.3, 41
+
+
+def lain() -> dr.Result:
+    """Rods that a floor and a wall carry, as if they had been bent so: round numbers, not an equilibrium."""
+    t = np.array([0.0, 0.5, 1.0])
+    rods = tuple(_bent(rod, sag, t) for rod, sag in zip(LYING.rods, (1e-4, 2e-4), strict=True))
+    floor = dr.ContactHistory(tuple(_on_floor(rod, LYING.contacts[0].law) for rod in rods))
+    apart = np.full((3, N_S), 0.2)
+    push = np.outer(t, np.eye(1, N_S)[0])
+    none = np.zeros((3, N_S, 3))
+    normal = np.where(push[:, :, None] > 0.0, [1.0, 0.0, 0.0], 0.0)
+    wall = dr.Touching(
+        s=rods[1].s,
+        share=_shares(rods[1].s),
+        gap=apart + rods[1].s,
+        pressure=push,
+        normal=normal,
+        traction=none,
+        slip=np.zeros((3, N_S)),
+        state=(2 * (push > 0.0)).astype(np.int8),
+    )
+    return dr.Result(
+        scene=LYING,
+        t=t,
+        rods=rods,
+        converged=True,
+        log=tuple(dr.StepLog(time, 3, 0, 1e-12, 0.5 * time) for time in t[1:].tolist()),
+        energy={"strain": 1e-3 * t},
+        statistics=dr.Statistics(30, 2, 6, 6),
+        formulation=dr.Formulation("continuum", "planar", {"r": 10}, ("Elasticity", "Contact")),
+        contacts=(floor, dr.ContactHistory((None, wall))),
+    )
+
+
+def apart() -> dr.Result:
+    """The same rods too far off to touch anything."""
+    result = lain()
+    contacts = [tuple(rod and _lifted(rod) for rod in contact.rods) for contact in result.contacts]
+    return replace(result, contacts=tuple(dr.ContactHistory(rods) for rods in contacts))
+
+
+def _lifted(rod: dr.Touching) -> dr.Touching:
+    """The same above the surface."""
+    still = {name: np.zeros_like(getattr(rod, name)) for name in ("pressure", "normal", "traction", "state")}
+    return replace(rod, gap=np.abs(rod.gap) + 1.0, **still)
+
+
+def _bent(rod: dr.Rod, sag: float, t: Array) -> dr.RodHistory:
+    """A rod whose middle sinks below y = 0 by `sag` in the end, and whose ends rise."""
+    s = np.linspace(0.0, rod.length, N_S)
+    x = 2.0 * s / rod.length - 1.0
+    y = np.outer(t, sag * (16.0 * x**2 - 1.0)) + np.outer(1.0 - t, np.full(N_S, 0.01))
+    flat = rod.centerline(s)
+    r = np.stack(np.broadcast_arrays(flat[:, 0], y, 0.0), axis=2)
+    still = {name: np.zeros_like(r) for name in VECTORS[1:]}
+    return dr.RodHistory(s=s, r=r, frames=np.broadcast_to(np.eye(3), (*r.shape, 3)).copy(), **still)
+
+
+def _shares(s: Array) -> Array:
+    """Half of the distance to either neighbour."""
+    return 0.5 * np.diff(s, prepend=s[0]) + 0.5 * np.diff(s, append=s[-1])
+
+
+def _on_floor(rod: dr.RodHistory, law: dr.Penalty) -> dr.Touching:
+    """What the floor does: friction at its limit where little presses, half of it where much does."""
+    gap = rod.r[:, :, 1]
+    pressure = law.eps_N * np.maximum(law.g_0 - gap, 0.0)
+    state = np.where(pressure > 0.5 * pressure.max(), 1, 2 * (pressure > 0.0)).astype(np.int8)
+    traction = np.zeros((*gap.shape, 3))
+    traction[:, :, 0] = -MU * pressure * np.where(state == 1, 0.5, 1.0)
+    return dr.Touching(
+        s=rod.s,
+        share=_shares(rod.s),
+        gap=gap,
+        pressure=pressure,
+        normal=np.where(pressure[:, :, None] > 0.0, [0.0, 1.0, 0.0], 0.0),
+        traction=traction,
+        slip=1e-5 * (state == 2),
+        state=state,
+    )
+
+
 def histories(rod: dr.Rod, n_t: int, n_s: int, velocities: tuple[str, ...] = ()) -> st.SearchStrategy[dr.RodHistory]:
     """Any arrays on nodes that divide a rod evenly."""
     vectors = {name: arrays(np.float64, (n_t, n_s, 3), elements=doubles) for name in (*VECTORS, *velocities)}
@@ -81,6 +176,37 @@ def results(draw: st.DrawFn) -> dr.Result:
         statistics=draw(st.builds(dr.Statistics, *[counts] * 4, *[seconds] * 3)),
         formulation=dr.Formulation("continuum", "spatial", {"r": 6}, ("Elasticity",), (draw(st.text()),)),
         state=draw(st.dictionaries(st.sampled_from("rqNm"), arrays(np.float64, (2, 1, 3), elements=doubles))),
+    )
+
+
+def touchings(s: Array, n_t: int) -> st.SearchStrategy[dr.Touching]:
+    """Any arrays at the points of a rod."""
+    lines, vectors = (arrays(np.float64, shape, elements=doubles) for shape in ((n_t, len(s)), (n_t, len(s), 3)))
+    return st.builds(
+        dr.Touching,
+        s=st.just(s),
+        share=arrays(np.float64, len(s), elements=st.floats(0.0, 1e9)),
+        gap=lines,
+        pressure=lines,
+        normal=vectors,
+        traction=vectors,
+        slip=lines,
+        state=arrays(np.int8, (n_t, len(s)), elements=st.integers(0, 2)),
+    )
+
+
+@st.composite
+def touched(draw: st.DrawFn) -> dr.Result:
+    """Any record of two rods of which a floor may touch both, a wall the second."""
+    t = np.array(sorted(draw(st.sets(st.floats(-1e9, 1e9), min_size=1, max_size=3))))
+    rods = tuple(draw(histories(rod, len(t), draw(st.integers(2, 3)))) for rod in LYING.rods)
+    both, (_, second) = (tuple(draw(touchings(rod.s, len(t))) for rod in rods) for _ in range(2))
+    return replace(
+        lain(),
+        t=t,
+        rods=rods,
+        energy={"strain": draw(arrays(np.float64, len(t), elements=doubles))},
+        contacts=(dr.ContactHistory(both), dr.ContactHistory((None, second))),
     )
 
 

@@ -1,9 +1,11 @@
 """Rigid surfaces: their signed distances, normals and curvatures; NumPy only."""
 
+from dolfinrod.scene.surfaces.cylinder import Cylinder
+from dolfinrod.scene.surfaces.groove import Groove
 from dolfinrod.scene.surfaces.plane import Plane
 from dolfinrod.scene.surfaces.surface import Closest, Surface
 from dolfinrod.scene.surfaces.wall import REST, Pose, WallMotion
 
-__all__ = ["REST", "SURFACES", "Closest", "Plane", "Pose", "Surface", "WallMotion"]
+__all__ = ["REST", "SURFACES", "Closest", "Cylinder", "Groove", "Plane", "Pose", "Surface", "WallMotion"]
 
-SURFACES = (Plane,)
+SURFACES = (Plane, Cylinder, Groove)

@@ -1,0 +1,81 @@
+"""Equilibrium of rods against walls: straight away, by way of softer walls, and with renewed multipliers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import ceil, log
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.contact import Contacts
+    from dolfinrod.continuum.newton import Outcome
+
+    Find = Callable[[int, float], Outcome]
+
+__all__ = ["DIRECT", "pressed", "renewed"]
+
+# Iterations after which a wall is approached by way of softer ones: what is pressed then changes little by little.
+DIRECT = 12
+# Stiffness of the softest in EI/L⁴, against which a rod bends over a tenth of its length, and of each over the last.
+SOFTEST, STIFFER = 1e5, 100.0
+# Increments, relative to the unknowns, at which a softer wall has told enough.
+ROUGH = 0.1
+# Renewals of multipliers after which a step is given up.
+MOST_RENEWALS = 50
+PENETRATES = "penetrations stayed above the tolerance of an augmented Lagrangian: its eps_N is too small for these rods"
+
+
+def pressed(x: NDArray[np.float64], contacts: Contacts, find: Find, most: int, fine: float) -> Outcome:
+    """Equilibrium with multipliers as they are.
+
+    Args:
+        x: State on this rank.
+        contacts: What the rods touch.
+        find: Newton's method from the state on: most iterations, and increments at which it is done.
+        most: Iterations allowed in the last stage.
+        fine: Increments at which that is done.
+
+    Returns:
+        How it ended, all iterations counted.
+    """
+    start = x.copy()
+    stages = max(0, ceil(log(max(contacts.stiffness / SOFTEST, 1.0), STIFFER)))
+    found = find(DIRECT if stages else most, fine)
+    if found.converged or not stages:
+        return found
+    spent = found.iterations
+    x[:] = start
+    for k in range(stages, 0, -1):
+        contacts.soften(STIFFER**k)
+        before = x.copy()
+        found = find(most, ROUGH)
+        spent += found.iterations
+        if not found.converged:
+            x[:] = before
+    contacts.soften(1.0)
+    found = find(most, fine)
+    return replace(found, iterations=spent + found.iterations)
+
+
+def renewed(contacts: Contacts, find: Callable[[], Outcome]) -> Outcome:
+    """Equilibrium with multipliers in line with it.
+
+    Args:
+        contacts: What the rods touch.
+        find: Equilibrium from the state on, multipliers as they are.
+
+    Returns:
+        How it ended, all iterations counted.
+    """
+    found = find()
+    for _ in range(MOST_RENEWALS):
+        if not found.converged or contacts.renew():
+            return found
+        again = find()
+        found = replace(again, iterations=found.iterations + again.iterations, strayed=found.strayed)
+    return replace(found, converged=False, reason=PENETRATES)

@@ -1,0 +1,102 @@
+"""Which points are pressed while Newton's method runs, and how hard.
+
+Under a stiff law the gap of an iterate says little: on a curved wall the error of a linear step is far larger than any
+penetration, and times the stiffness it is a force that drives the next step away. So a point that was pressed stays so
+as long as the pressure to which the last linear step has led is above zero, and the normals turn under that pressure.
+Newton's method then is that of a mixed formulation with pressures as unknowns, whose elimination leaves these two
+traces; where it ends, pressures and gaps agree.
+
+Source: Hintermüller, Ito & Kunisch, SIAM J. Optim. 13, 2002 (primal-dual active sets); Hüeber & Wohlmuth, Comput.
+Methods Appl. Mech. Eng. 194, 2005.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from dolfinrod.scene.pressure import NormalLaw
+
+__all__ = ["Pressing"]
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+# Distance from touching, in radii, that is round-off.
+GRAZING = 1e-9
+
+
+class Pressing:
+    """Pressures of points in an iteration.
+
+    Args:
+        law: How the surface pushes back.
+        radius: Of the rod at each point, shape (n,) [m].
+
+    Attributes:
+        law: The same, softened or not.
+    """
+
+    def __init__(self, law: NormalLaw, radius: Array) -> None:
+        self._full, self._radius = law, radius
+        self.begin()
+
+    def begin(self) -> None:
+        """An iteration begins."""
+        self.law = self._full
+        self._led: tuple[Flags, Array, Array, Array] | None = None
+        self._kept = np.zeros(len(self._radius), dtype=bool)
+
+    def cling(self, pressed: Flags, gap: Array) -> Flags:
+        """Keep these points pressed in the first answer, and those whose gap was none; all of them."""
+        self._kept = pressed | self._just_touch(gap)
+        return self._kept
+
+    def _just_touch(self, gap: Array) -> Flags:
+        return np.abs(gap - self.law.g_0) <= GRAZING * self._radius
+
+    def soften(self, by: float) -> None:
+        """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
+        self.law = self._full.softened(by)
+        self._led = None
+
+    def at(self, X: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:
+        """Pressures at the end of a step.
+
+        Args:
+            X: Points, shape (n, 3) [m].
+            gap: Shape (n,) [m].
+            λ: Multipliers, shape (n,) [N/m].
+
+        Returns:
+            p, dp/dg, which points are pressed, and the pressure under which normals turn, each of shape (n,).
+        """
+        p, slope = self.law.pressure(gap, λ)
+        expected, pressed = p, p > 0.0
+        if self._led is None:
+            pressed = pressed | self._kept
+        else:
+            was, X_0, p_0, p_X = self._led
+            hoped = p_0 + np.einsum("ni,ni->n", p_X, X - X_0)
+            pressed = np.where(was, hoped > 0.0, pressed)
+            expected = np.where(was, np.maximum(hoped, 0.0), 0.0)
+        drawn, stiff = self.law.drawn(gap, λ)
+        p, slope = np.where(pressed, drawn, 0.0), np.where(pressed, stiff, 0.0)
+        return (*self._grazing(p, slope, pressed, gap), expected)
+
+    def _grazing(self, p: Array, slope: Array, pressed: Flags, gap: Array) -> tuple[Array, Array, Flags]:
+        """What just touches is about to be pressed: without its stiffness a rod that lies on a wall would be free."""
+        grazes = ~pressed & self._just_touch(gap)
+        return p, np.where(grazes, -self.law.eps_N, slope), pressed | grazes
+
+    def mean(self, start: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:
+        """The same of mean pressures over steps from gaps `start` on, which are taken as they are."""
+        p, slope = self.law.mean(start, gap, λ)
+        return (*self._grazing(p, slope, p > 0.0, gap), p)
+
+    def led(self, X: Array, p: Array, p_X: Array, pressed: Flags) -> None:
+        """From here the next linear step is taken; arguments as for `at`, p_X of shape (n, 3)."""
+        self._led = pressed & (p != 0.0), X, p, p_X

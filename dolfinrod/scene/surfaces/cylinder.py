@@ -1,0 +1,71 @@
+"""A round cylinder, touched from outside or from within."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from dolfinrod.scene.errors import SceneError, quoted
+from dolfinrod.scene.quantity import VectorLike, assign, direction, positive, vector
+from dolfinrod.scene.surfaces.polyline import ROUND_OFF
+from dolfinrod.scene.surfaces.surface import Closest
+from dolfinrod.scene.surfaces.wall import WallMotion, moving
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Cylinder"]
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """Cylinder without ends: from outside φ = ρ − radius, from inside φ = radius − ρ, ρ the distance to its axis.
+
+    On the axis, where every direction is as near, the normal points away from or towards the one of x, y and z that is
+    farthest from the axis, and the curvature is taken as zero.
+
+    Args:
+        point: Any point of its axis [m].
+        axis: Along it, of any length.
+        radius: [m].
+        side: Where the rods are, "outside" or "inside".
+        motion: How it moves; None: not at all.
+
+    Raises:
+        SceneError: An axis that is zero, a radius that is not positive, an unknown side.
+    """
+
+    point: VectorLike
+    axis: VectorLike
+    radius: float
+    side: Literal["outside", "inside"] = "outside"
+    motion: WallMotion | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.side, str) or self.side not in ("outside", "inside"):
+            raise SceneError(f'must be "outside" or "inside", got {quoted(self.side)}', field="Cylinder.side")
+        assign(
+            self,
+            point=vector(self.point, "Cylinder.point", "m"),
+            axis=direction(self.axis, "Cylinder.axis"),
+            radius=positive(self.radius, "Cylinder.radius", "m"),
+            motion=moving(self.motion, "Cylinder.motion"),
+        )
+
+    def closest(self, x: NDArray[np.float64]) -> Closest:
+        """See `Surface.closest`."""
+        axis, sign = np.asarray(self.axis), 1.0 if self.side == "outside" else -1.0
+        d = x - np.asarray(self.point)
+        # Twice, for the digits the first projection loses far along the axis.
+        for _ in range(2):
+            d = d - (d @ axis)[:, None] * axis
+        ρ = np.sqrt(np.einsum("ni,ni->n", d, d))
+        off = ρ > ROUND_OFF * self.radius
+        across = np.eye(3)[np.argmin(np.abs(axis))]
+        across = across - (across @ axis) * axis
+        out = np.where(off[:, None], d / np.where(off, ρ, 1.0)[:, None], across / np.linalg.norm(across))
+        bend = np.where(off, sign / np.where(off, ρ, 1.0), 0.0)
+        around = np.eye(3) - axis[:, None] * axis - out[:, :, None] * out[:, None, :]
+        return Closest(sign * (ρ - self.radius), sign * out, bend[:, None, None] * around)

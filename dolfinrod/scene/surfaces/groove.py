@@ -1,0 +1,241 @@
+"""A groove of any cross-section, straight or around a roller."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi, tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.quantity import Vector, VectorLike, assign, direction, nonnegative, positive, vector
+from dolfinrod.scene.surfaces.polyline import ROUND_OFF, points, refuse_axis
+from dolfinrod.scene.surfaces.profile import Profile
+from dolfinrod.scene.surfaces.sections import flanked, rounded
+from dolfinrod.scene.surfaces.surface import Closest
+from dolfinrod.scene.surfaces.wall import WallMotion, moving
+
+__all__ = ["Groove"]
+
+Array = NDArray[np.float64]
+X, Y, ORIGIN = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 0.0)
+# The paper gives the angle alone, 15°, and not what it is measured from; widths and depths are our own assumptions.
+GENTLE, STEEP = pi / 12, 5 * pi / 12
+HALF_WIDTH = 1.5e-3
+DEPTH = HALF_WIDTH * tan(GENTLE)
+BOTTOM = 1e-3
+
+
+@dataclass(frozen=True)
+class Groove:
+    """A wall whose cross-section is a polyline, the rods on its left, the same all along `axis`.
+
+    The section lies in the plane of z = axis × up, to the right, and y along `up`: from the left to the right land the
+    rods are above it. Its first and last flanks go on without end. φ is the distance to the nearest piece; around a lip
+    the normal fans out and the curvature is 1/φ. In a sharp corner the normal jumps from one flank to the other, so
+    that a rod which touches both finds no equilibrium: a `fillet` wider than the rod, or two `Plane`s, hold it.
+
+    With a `roller` the section goes around instead: y is the height above a roller whose axis, along z, is that far
+    below `point`, and `axis` is the direction around it there.
+
+    Args:
+        profile: Points (z, y) of the section, at least two [m].
+        point: Where its (0, 0) is [m].
+        axis: Along the groove, of any length.
+        up: Out of the wall, of any length; its part along `axis` is left out.
+        fillet: Radius that rounds re-entrant corners; 0: they stay sharp [m].
+        roller: Radius of the roller; None: the groove is straight [m].
+        motion: How it moves; None: not at all.
+
+    Raises:
+        SceneError: A polyline that meets itself or the roller's axis, a fillet without room, `up` along `axis`.
+    """
+
+    profile: Sequence[VectorLike]
+    point: VectorLike = ORIGIN
+    axis: VectorLike = X
+    up: VectorLike = Y
+    fillet: float = 0.0
+    roller: float | None = None
+    motion: WallMotion | None = None
+
+    def __post_init__(self) -> None:
+        (axis, up), profile = _upright(self.axis, self.up), points(self.profile)
+        assign(
+            self,
+            profile=profile,
+            point=vector(self.point, "Groove.point", "m"),
+            axis=axis,
+            up=up,
+            fillet=nonnegative(self.fillet, "Groove.fillet", "m"),
+            roller=None if self.roller is None else positive(self.roller, "Groove.roller", "m"),
+            motion=moving(self.motion, "Groove.motion"),
+        )
+        if self.roller is not None:
+            refuse_axis(profile, self.roller)
+        _ = self._section  # so that what bounds no wall is refused here, not where the rods first ask
+
+    @classmethod
+    def v(
+        cls,
+        beta_left: float,
+        beta_right: float,
+        half_width: float,
+        depth: float | None = None,
+        point: VectorLike = ORIGIN,
+        axis: VectorLike = X,
+        up: VectorLike = Y,
+        fillet: float = 0.0,
+        roller: float | None = None,
+        motion: WallMotion | None = None,
+    ) -> Groove:
+        """Two flanks between lands at y = 0; where it is less deep than they meet, with a flat bottom.
+
+        Args:
+            beta_left: Angle of the left flank to the lands, up to π/2 [rad].
+            beta_right: Likewise.
+            half_width: From the left lip to the foot of the right flank, which is at z = 0 [m].
+            depth: Of the bottom; None: where the flanks meet, half_width tan(beta_left) [m].
+            point: This and what follows as `Groove`.
+            axis: Likewise.
+            up: Likewise.
+            fillet: Likewise.
+            roller: Likewise.
+            motion: Likewise.
+
+        Returns:
+            The groove.
+        """
+        return cls(flanked(beta_left, beta_right, half_width, depth), point, axis, up, fillet, roller, motion)
+
+    @classmethod
+    def round(
+        cls,
+        radius: float,
+        depth: float | None = None,
+        point: VectorLike = ORIGIN,
+        axis: VectorLike = X,
+        up: VectorLike = Y,
+        roller: float | None = None,
+        motion: WallMotion | None = None,
+    ) -> Groove:
+        """An arc of a circle between lands at y = 0, under upright walls where it is deeper than its radius.
+
+        Args:
+            radius: Of the arc [m].
+            depth: Of the groove; None: as deep as its radius, half a circle [m].
+            point: This and what follows as `Groove`.
+            axis: Likewise.
+            up: Likewise.
+            roller: Likewise.
+            motion: Likewise.
+
+        Returns:
+            The groove.
+        """
+        profile, fillet = rounded(radius, depth)
+        return cls(profile, point, axis, up, fillet, roller, motion)
+
+    @classmethod
+    def intermediate(
+        cls,
+        beta: float = GENTLE,
+        half_width: float = HALF_WIDTH,
+        point: VectorLike = ORIGIN,
+        axis: VectorLike = X,
+        up: VectorLike = Y,
+        fillet: float = 0.0,
+        roller: float | None = None,
+        motion: WallMotion | None = None,
+    ) -> Groove:
+        """A symmetric V for fibres that enter in the middle: our assumption, the paper gives no section.
+
+        Both flanks slope by beta [rad] from lip to bottom over half_width [m]; the rest as `Groove`.
+        """
+        return cls.v(beta, beta, half_width, None, point, axis, up, fillet, roller, motion)
+
+    @classmethod
+    def lateral(
+        cls,
+        beta_left: float = GENTLE,
+        beta_right: float = STEEP,
+        half_width: float = HALF_WIDTH,
+        point: VectorLike = ORIGIN,
+        axis: VectorLike = X,
+        up: VectorLike = Y,
+        fillet: float = 0.0,
+        roller: float | None = None,
+        motion: WallMotion | None = None,
+    ) -> Groove:
+        """A gentle ramp against a steep wall for fibres that enter from the left: our assumption, not the paper's.
+
+        Reads its lateral angle of 15° as that between ramp and surface. Arguments as `Groove.v`.
+        """
+        return cls.v(beta_left, beta_right, half_width, None, point, axis, up, fillet, roller, motion)
+
+    @classmethod
+    def lateral_steep(
+        cls,
+        beta_left: float = STEEP,
+        beta_right: float = STEEP,
+        half_width: float = BOTTOM + DEPTH * tan(GENTLE),
+        depth: float = DEPTH,
+        point: VectorLike = ORIGIN,
+        axis: VectorLike = X,
+        up: VectorLike = Y,
+        fillet: float = 0.0,
+        roller: float | None = None,
+        motion: WallMotion | None = None,
+    ) -> Groove:
+        """A flat bottom between steep walls: our assumption, too, the other reading of the paper's lateral angle.
+
+        Its 15° are those between wall and normal here. Arguments as `Groove.v`.
+        """
+        return cls.v(beta_left, beta_right, half_width, depth, point, axis, up, fillet, roller, motion)
+
+    @cached_property
+    def _section(self) -> Profile:
+        return Profile.through(np.asarray(self.profile), self.fillet)
+
+    @cached_property
+    def _axes(self) -> tuple[Array, Array, Array]:
+        """Along the groove, to the right and up."""
+        axis, up = np.asarray(self.axis), np.asarray(self.up)
+        return axis, np.cross(axis, up), up
+
+    def closest(self, x: Array) -> Closest:
+        """See `Surface.closest`; around a roller the nearest point lies in the plane through its axis.
+
+        The curvature around the roller is n_y/ρ with the distance ρ to its axis; on the axis it is taken as zero.
+        """
+        axis, right, up = self._axes
+        d = x - np.asarray(self.point)
+        z, y = d @ right, d @ up
+        forth, back, bend = np.ones(len(x)), np.zeros(len(x)), np.zeros(len(x))
+        if self.roller is not None:
+            along, height = d @ axis, y + self.roller
+            ρ = np.hypot(along, height)
+            off = ρ > ROUND_OFF * self.roller
+            bend = np.where(off, 1.0 / np.where(off, ρ, 1.0), 0.0)
+            forth, back, y = np.where(off, bend * height, 1.0), bend * along, ρ - self.roller
+        near = self._section.nearest(np.stack([z, y], axis=1))
+        out, around = np.outer(forth, up) + np.outer(back, axis), np.outer(forth, axis) - np.outer(back, up)
+        n_z, n_y = near.normal.T
+        across = n_z[:, None] * out - np.outer(n_y, right)
+        curvature = (near.curvature[:, None] * across)[:, :, None] * across[:, None, :]
+        curvature += ((n_y * bend)[:, None] * around)[:, :, None] * around[:, None, :]
+        return Closest(near.distance, np.outer(n_z, right) + n_y[:, None] * out, curvature)
+
+
+def _upright(axis: VectorLike, up: VectorLike) -> tuple[Vector, Vector]:
+    """Unit vectors along a groove and across it, out of the wall; already orthonormal ones unchanged."""
+    a, b = direction(axis, "Groove.axis"), direction(up, "Groove.up")
+    if np.linalg.norm(np.cross(a, b)) <= 1e-6:
+        raise SceneError(f"must not be along Groove.axis {axis}, got {up}", field="Groove.up")
+    # Twice, for the digits the first projection loses where up leans towards the axis.
+    for _ in range(2):
+        b = direction(np.asarray(b) - np.dot(a, b) * np.asarray(a), "Groove.up")
+    return a, b

@@ -1,0 +1,224 @@
+"""Laws of rods that hit, slide on and stick to surfaces in time: energy, impulse, thresholds, walls, restarts."""
+
+from __future__ import annotations
+
+from mpi4py import MPI
+
+import numpy as np
+import pytest
+
+import dolfinrod as dr
+from tests.scenes import FLAT, SKEW, Pose, both_kinematics, differences
+
+RADIUS = 0.01
+SECTION = dr.Section(EA=4e3, GA=1.5e3, GJ=0.8, EI=1.0, rhoA=1.0, rhoI=(5e-5, 2.5e-5, 2.5e-5), radius=RADIUS)
+EPS = 1e4
+# Half a period of a point mass ρA on the stiffness ε_N, all in units of 1.
+BOUNCE = np.pi / np.sqrt(EPS)
+both_schemes = pytest.mark.parametrize("scheme", [dr.ImplicitEuler(), dr.Midpoint()], ids=["Euler", "midpoint"])
+MESH = {"elements": 2, "degree": 3}
+
+
+def floor(pose: Pose, friction: object = None, motion: dr.WallMotion | None = None) -> dr.Contact:
+    """The half space y < 0 of a pose."""
+    plane = dr.Plane(pose.placed((0.0, 0.0, 0.0)), pose.turned((0.0, 1.0, 0.0)), motion)
+    return dr.Contact(plane, dr.Penalty(EPS), friction)
+
+
+def thrown(
+    motion: dr.Dynamic, v: tuple[float, float, float], *, pose: Pose = FLAT, friction: object = None
+) -> dr.Scene:
+    """A rod that flies at the floor, which it is about to touch."""
+    rod = pose.straight(SECTION, start=(0.0, RADIUS + 1e-6, 0.0))
+    start = dr.Velocity(v=pose.turned(v))
+    return dr.Scene([rod], contacts=[floor(pose, friction)], motion=motion, velocities=[start])
+
+
+def lying(
+    motion: dr.Dynamic,
+    push: tuple[float, float, float],
+    friction: object,
+    wall: dr.WallMotion | None = None,
+    **more: object,
+) -> dr.Scene:
+    """A rod at rest on the floor, as deep as the line load presses it."""
+    rod = FLAT.straight(SECTION, start=(0.0, RADIUS + push[1] / EPS, 0.0))
+    return dr.Scene([rod], loads=[dr.LineForce(push)], contacts=[floor(FLAT, friction, wall)], motion=motion, **more)
+
+
+def unclosed(result: dr.Result) -> float:
+    """What the ledger does not account for, over the energy there was."""
+    e = result.energy
+    stored = sum(e[name] - e[name][0] for name in ("kinetic", "strain", "potential", "contact"))
+    works = ("load work", "support work", "wall work", "drag", "damping", "friction", "numerical")
+    scale = max(float(np.abs(e[name]).max()) for name in ("kinetic", "contact", "wall work", "load work"))
+    return float(np.abs(stored - sum(e[name] for name in works)).max()) / scale
+
+
+@both_schemes
+@both_kinematics
+def test_an_impact_gains_no_energy(kinematics, scheme):
+    """C2: largest penetration v √(ρA/ε), time of contact π √(ρA/ε), and back at the same speed as steps shrink."""
+    back, depth = [], []
+    for n in (40, 80):
+        motion = dr.Dynamic(1.5 * BOUNCE, 1.5 * BOUNCE / n, scheme)
+        result = dr.solve(thrown(motion, (0.0, -1.0, 0.0), pose=SKEW), kinematics=kinematics, **MESH)
+        e = result.energy
+        assert (e["kinetic"] + e["strain"] + e["contact"]).max() <= e["kinetic"][0] * (1.0 + 1e-8)
+        assert unclosed(result) <= 1e-8
+        back.append(1.0 - float((result.rods[0].v[-1] @ SKEW.turned((0.0, 1.0, 0.0))).mean()))
+        depth.append(-float(result.contacts[0].rods[0].gap.min()) * np.sqrt(EPS) - 1.0)
+    if isinstance(scheme, dr.Midpoint):
+        assert np.abs(back).max() <= 1e-7
+        assert abs(depth[1]) <= 1e-3
+    else:
+        assert back[0] / back[1] == pytest.approx(2.0, rel=0.15)
+        assert depth[0] / depth[1] == pytest.approx(2.0, rel=0.15)
+
+
+@both_schemes
+def test_momentum_changes_by_the_impulse_of_the_surface(scheme):
+    motion = dr.Dynamic(0.5 * BOUNCE, 0.5 * BOUNCE / 50, scheme)
+    result = dr.solve(thrown(motion, (0.6, -1.0, 0.3), friction=dr.Coulomb(0.3)), **MESH)
+    touching = result.contacts[0].rods[0]
+    momentum = np.einsum("s,tsi->ti", touching.share, result.rods[0].v)
+    np.testing.assert_allclose(
+        np.diff(momentum, axis=0), np.diff(result.t)[:, None] * touching_force(result), atol=1e-8
+    )
+
+
+def touching_force(result: dr.Result) -> np.ndarray:
+    """Resultant of the surface in each step; the stored one is what has acted in the step that led there."""
+    return result.contacts[0].force[1:]
+
+
+@both_schemes
+@both_kinematics
+def test_friction_only_takes(kinematics, scheme):
+    """An oblique impact, sliding and turning the rod."""
+    motion = dr.Dynamic(2.0 * BOUNCE, BOUNCE / 40, scheme)
+    scene = thrown(motion, (0.8, -1.0, 0.0), friction=dr.Coulomb(0.2))
+    result = dr.solve(scene, kinematics=kinematics, **MESH)
+    e = result.energy
+    assert unclosed(result) <= 1e-8
+    assert np.diff(e["friction"]).max() <= 1e-12
+    assert e["friction"][-1] < -0.1
+    total = e["kinetic"] + e["strain"] + e["contact"]
+    assert total.max() <= total[0] * (1.0 + 1e-8)
+
+
+@both_schemes
+@both_kinematics
+@pytest.mark.parametrize("mu", [0.3, 0.64])
+def test_a_rod_slides_with_what_friction_leaves(kinematics, scheme, mu):
+    """C5: acceleration (tan β − μ) q/ρA along a slope where tan β > μ, and no slip at all below.
+
+    A load that is put on at once swings the anchors twice as far as it holds them in the end.
+    """
+    q, steps = 50.0, 20
+    for tangent, moves in ((mu + 0.4, True), (0.45 * mu, False)):
+        motion = dr.Dynamic(0.02, 0.02 / steps, scheme)
+        loads = (q * tangent, -q, 0.0)
+        scene = lying(motion, loads, dr.Coulomb(mu, eps_T=1e7))
+        result = dr.solve(scene, kinematics=kinematics, **MESH)
+        velocity = float(result.rods[0].v[-1, :, 0].mean())
+        if moves:
+            assert velocity == pytest.approx((tangent - mu) * q * 0.02, rel=1e-3)
+        else:
+            np.testing.assert_array_equal(result.contacts[0].rods[0].slip[-1], 0.0)
+            assert (result.contacts[0].rods[0].state[-1] == 1).all()
+
+
+@both_schemes
+def test_a_wall_that_starts_moving_takes_a_rod_along(scheme):
+    """C9: at speed v after v ρA/(μ q); of the work of the wall, half moves the rod, half is rubbed off."""
+    mu, q, v = 0.5, 20.0, 0.3
+    t = v / (mu * q)
+    motion = dr.Dynamic(2.0 * t, t / 50, scheme)
+    wall = dr.WallMotion(velocity=(v, 0.0, 0.0))
+    result = dr.solve(lying(motion, (0.0, -q, 0.0), dr.Coulomb(mu, eps_T=1e8), wall), **MESH)
+    speed = result.rods[0].v[:, :, 0].mean(axis=1)
+    assert speed[25] == pytest.approx(0.5 * v, rel=0.03)
+    assert speed[-1] == pytest.approx(v, rel=1e-2)
+    e = result.energy
+    assert e["wall work"][-1] == pytest.approx(v**2, rel=0.05)
+    assert e["friction"][-1] == pytest.approx(-0.5 * v**2, rel=0.05)
+    assert unclosed(result) <= 1e-8
+
+
+def test_what_has_settled_does_not_creep():
+    """C10: anchors stand still to the last bit; friction against the velocity lets the rod creep."""
+    mu, q = 0.64, 20.0
+    push = (q * np.tan(np.radians(15.0)), -q, 0.0)
+    motion = dr.Dynamic(0.2, 0.002)
+    sticks = dr.solve(lying(motion, push, dr.Coulomb(mu)), **MESH)
+    slip = sticks.contacts[0].rods[0].slip
+    np.testing.assert_array_equal(slip[50:], np.tile(slip[50], (len(slip) - 50, 1)))
+    v_0 = 1e-3
+    creeps = dr.solve(lying(motion, push, dr.CreepingCoulomb(mu, v_0)), **MESH)
+    expected = v_0 * push[0] / np.sqrt((mu * q) ** 2 - push[0] ** 2)
+    assert float(creeps.rods[0].v[-1, :, 0].mean()) == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_solid_cylinder_rolls():
+    """Down a slope with a = ⅔ g sin β as long as tan β < 3 μ: friction acts at its surface."""
+    radius, q, mu = 0.1, 20.0, 0.5
+    solid = dr.Section(
+        EA=4e5,
+        GA=1.5e5,
+        GJ=80.0,
+        EI=100.0,
+        rhoA=1.0,
+        rhoI=(0.5 * radius**2, 0.25 * radius**2, 0.25 * radius**2),
+        radius=radius,
+    )
+    slope = np.radians(40.0)
+    down = (0.0, -q * np.cos(slope), q * np.sin(slope))
+    rod = FLAT.straight(solid, start=(0.0, radius + down[1] / EPS, 0.0))
+    motion = dr.Dynamic(0.1, 0.001, dr.Midpoint())
+    scene = dr.Scene(
+        [rod], loads=[dr.LineForce(down)], contacts=[floor(FLAT, dr.Coulomb(mu, eps_T=1e8))], motion=motion
+    )
+    result = dr.solve(scene, elements=1, degree=3, kinematics=dr.Spatial())
+    v, spin = result.rods[0].v[-1, :, 2].mean(), result.rods[0].omega[-1, :, 0].mean()
+    assert v == pytest.approx(2.0 / 3.0 * q * np.sin(slope) * 0.1, rel=1e-2)
+    assert spin * radius == pytest.approx(v, rel=1e-2)
+    assert result.energy["friction"][-1] >= -1e-3 * result.energy["kinetic"][-1]
+
+
+@both_schemes
+@pytest.mark.serial
+def test_a_motion_goes_on_where_it_was_stopped(tmp_path, scheme):
+    """Anchors and slips are kept, in a result and in a file: stopped halfway, a motion ends where it would have."""
+
+    def scene(t_end: float) -> dr.Scene:
+        return thrown(dr.Dynamic(t_end, BOUNCE / 20, scheme), (0.3, -1.0, 0.2), friction=dr.Coulomb(0.4))
+
+    def stop(row: dr.StepLog, _: float) -> None:
+        if row.t > 0.6 * BOUNCE:
+            raise KeyboardInterrupt
+
+    whole = dr.solve(scene(2.0 * BOUNCE), **MESH)
+    on = [dr.solve(scene(2.0 * BOUNCE), start=dr.solve(scene(0.5 * BOUNCE), **MESH), **MESH)]
+    file = tmp_path / "motion.h5"
+    with pytest.raises(dr.NotConverged, match="interrupted"):
+        dr.solve(scene(2.0 * BOUNCE), checkpoint=file, progress=stop, **MESH)
+    on.append(dr.solve(scene(2.0 * BOUNCE), checkpoint=file, **MESH))
+    for result in on:
+        assert max(differences(result, whole).values()) <= 1e-9
+        slip = result.contacts[0].rods[0].slip[-1]
+        np.testing.assert_allclose(slip, whole.contacts[0].rods[0].slip[-1], atol=1e-12)
+        assert result.energy["friction"][-1] == pytest.approx(whole.energy["friction"][-1], rel=1e-9)
+
+
+@both_schemes
+@both_kinematics
+def test_ranks_do_not_matter(kinematics, scheme):
+    motion = dr.Dynamic(BOUNCE, BOUNCE / 20, scheme)
+    scene = thrown(motion, (0.8, -1.0, 0.0), friction=dr.Coulomb(0.2))
+    together, alone = (
+        dr.solve(scene, kinematics=kinematics, comm=comm, **MESH) for comm in (MPI.COMM_WORLD, MPI.COMM_SELF)
+    )
+    assert max(differences(together, alone).values()) <= 1e-8
+    for name in ("friction", "contact", "wall work"):
+        np.testing.assert_allclose(together.energy[name], alone.energy[name], atol=1e-10)
