@@ -114,8 +114,6 @@ class Contacts:
         for side in self._sides:
             reply, nodes = side.reply, side.nodes
             on = np.flatnonzero(reply.state)
-            if not len(on):
-                continue
             b[self.r[nodes[on]]] -= side.share[on] * (reply.force[on] @ place.axes) / place.force
             if side.touch.turns:
                 moment = side.share[on] * (reply.moment[on] @ place.spin_axes) / place.moment

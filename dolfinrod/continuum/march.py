@@ -15,7 +15,7 @@ from dolfinrod.continuum.restart import rates
 from dolfinrod.continuum.stepping import StepFailed
 from dolfinrod.continuum.trajectory import Mark, Trajectory
 from dolfinrod.result import StepLog
-from dolfinrod.scene.history import kinks
+from dolfinrod.scene import corners
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -216,11 +216,8 @@ def targets(scene: Scene, times: Dynamic) -> list[float]:
     end, dt = times.t_end, times.dt
     n = 1 if dt is None else int(np.ceil(end / dt * (1.0 - SAME)))
     even = end * (np.arange(1, n + 1) / n)
-    corners = [
-        t for part in (*scene.supports, *scene.loads, *scene.contacts) for t in kinks(getattr(part, "history", None))
-    ]
     stored = outputs(times)
-    met = np.unique(np.concatenate([even, corners, [] if stored is None else stored]))
+    met = np.unique(np.concatenate([even, corners(scene), [] if stored is None else stored]))
     met = met[(met > 0.0) & (met <= end)]
     keep = np.append(np.diff(met) > SAME * end / n, True)
     return [float(t) for t in met[keep]]

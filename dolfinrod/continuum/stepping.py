@@ -13,8 +13,7 @@ from dolfinrod.continuum.pressed import DIRECT
 from dolfinrod.continuum.stability import Verdict
 from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.result import StepLog
-from dolfinrod.scene import Dynamic
-from dolfinrod.scene.history import kinks
+from dolfinrod.scene import Dynamic, corners
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -121,10 +120,7 @@ def targets(scene: Scene, t_0: float, until: float = np.inf) -> list[float]:
     end = min(until, motion.t_end)
     steps = 1 if isinstance(motion, Dynamic) else motion.steps or 1
     even = np.arange(1, steps + 1) / steps * motion.t_end
-    corners = [
-        t for part in (*scene.supports, *scene.loads, *scene.contacts) for t in kinks(getattr(part, "history", None))
-    ]
-    return sorted({float(t) for t in (*even, *corners, end) if t_0 < t <= end})
+    return sorted({float(t) for t in (*even, *corners(scene), end) if t_0 < t <= end})
 
 
 class Walk:
@@ -154,11 +150,7 @@ class Walk:
         self._easy = EASY if newton.problem.contacts is None else DIRECT
         self._stride = Stride(easy=self._easy)
         scene = newton.problem.scene
-        self._corners = {
-            t
-            for part in (*scene.supports, *scene.loads, *scene.contacts)
-            for t in kinks(getattr(part, "history", None))
-        }
+        self._corners = set(corners(scene))
 
     def run(self, until: float = np.inf) -> None:
         """Meet every target up to a pseudo-time.

@@ -28,7 +28,7 @@ def admit(scene: object, start: object, earlier: type) -> None:
         raise SceneError(f"must be a Scene, got {quoted(scene)}", field="scene")
     if start is not None and not isinstance(start, earlier):
         raise SceneError(f"must be a {earlier.__name__} or None, got {quoted(start)}", field="start")
-    if isinstance(scene.motion, Dynamic) or scene.contacts:
+    if isinstance(scene.motion, Dynamic):
         return
     pushed = (*pushed_away(scene), *turned_away(scene))
     if pushed:

@@ -58,7 +58,7 @@ class Touch:
         """The rods are at x; nothing is remembered."""
         self._t_0 = t
         self._x_0, self._X_0 = x.copy(), self._pose(t).back(x)
-        self._gap_0 = self._law_gap(self._X_0)
+        self._gap_0 = self.contact.surface.closest(self._X_0).distance - self._radius
         for memory in (self._λ_0, self._slip, self._u):
             memory[:] = 0.0
         self._state, self._state_0 = np.full_like(self._state, OPEN), np.full_like(self._state, OPEN)
@@ -84,9 +84,6 @@ class Touch:
     def _pose(self, t: float) -> Pose:
         motion = self.contact.surface.motion
         return REST if motion is None else motion.pose(t, self._t_end)
-
-    def _law_gap(self, X: Array) -> Array:
-        return self.contact.surface.closest(X).distance - self._radius
 
     def respond(self, x: Array, turn: Array) -> Reply:
         """What acts where the step has led.

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.errors import SceneError
-from dolfinrod.scene.quantity import Vector, VectorLike, assign, direction, nonnegative, positive, vector
+from dolfinrod.scene.quantity import UNIT, Vector, VectorLike, assign, direction, nonnegative, positive, vector
 from dolfinrod.scene.surfaces.polyline import ROUND_OFF, points, refuse_axis
 from dolfinrod.scene.surfaces.profile import Profile
 from dolfinrod.scene.surfaces.sections import flanked, rounded
@@ -237,5 +237,6 @@ def _upright(axis: VectorLike, up: VectorLike) -> tuple[Vector, Vector]:
         raise SceneError(f"must not be along Groove.axis {axis}, got {up}", field="Groove.up")
     # Twice, for the digits the first projection loses where up leans towards the axis.
     for _ in range(2):
-        b = direction(np.asarray(b) - np.dot(a, b) * np.asarray(a), "Groove.up")
+        if abs(np.dot(a, b)) > UNIT:
+            b = direction(np.asarray(b) - np.dot(a, b) * np.asarray(a), "Groove.up")
     return a, b
