@@ -14,6 +14,7 @@ import numpy as np
 
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.lumped import node_lengths
+from dolfinrod.continuum.rubbing import rubs
 from dolfinrod.continuum.touched import COLUMNS, FELT, MEMORY
 from dolfinrod.scene import Touch
 
@@ -56,7 +57,7 @@ class Contacts:
     """
 
     def __init__(self, problem: Problem, level: float = 1.0) -> None:
-        self._problem = problem
+        self._problem, self._rubs = problem, rubs(problem.scene)
         d, scene = problem.discretization, problem.scene
         self.r, self.q = d.owned_nodes("r"), d.owned_nodes("q")
         first = self.r[:, 0]
@@ -97,7 +98,8 @@ class Contacts:
             return
         place, kin = self._problem.placement, self._problem.kinematics
         x = place.to_space(state[self.r])
-        turn = kin.rotation_vector(self._q_0, state[self.q]) @ place.spin_axes.T
+        turned = kin.rotation_vector(self._q_0, state[self.q]) if self._rubs else np.zeros((len(x), kin.n_spin))
+        turn = turned @ place.spin_axes.T
         for side in self._sides:
             side.reply = side.touch.respond(x[side.nodes], turn[side.nodes])
         self._seen = now
@@ -164,9 +166,8 @@ class Contacts:
     @property
     def stiffness(self) -> float:
         """That of the stiffest law, in EI/L⁴."""
-        place = self._problem.placement
-        stiffest = max(side.touch.contact.law.eps_N for side in self._sides)
-        return float(stiffest * place.length**4 / place.stiffness)
+        place, laws = self._problem.placement, [side.touch.contact.law for side in self._sides]
+        return float(max(law.eps_N for law in laws) * place.length**4 / place.stiffness)
 
     def soften(self, by: float) -> None:
         """Let all walls be softer by a factor, until the next step begins."""
@@ -224,11 +225,11 @@ class Contacts:
             )
             table[side.nodes, k * n : (k + 1) * n] = rows
         carrier = backend.function(d.space)
-        by_cell, first = [], d.dofs["r"][:, :, 0]
+        by_cell = []
         for column in table.T:
             carrier.x.array[self.r[:, 0]] = column
             carrier.x.scatter_forward()
-            by_cell.append(carrier.x.array[first])
+            by_cell.append(carrier.x.array[d.dofs["r"][:, :, 0]])
         return np.stack(by_cell, axis=-1)
 
     def recall(self, kept: Array, t: float | None = None) -> None:

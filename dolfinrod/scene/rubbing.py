@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Pressed", "Rubbing", "Step", "rubbed", "skew", "slip_gradients", "traction_gradient"]
+__all__ = ["Pressed", "Rubbing", "Step", "cross", "rubbed", "skew", "slip_gradients", "traction_gradient"]
 
 Array = NDArray[np.float64]
 
@@ -154,6 +154,14 @@ def slip_gradients(step: Step, start: Array, g_0: float) -> tuple[Array, Array]:
     u_X = P @ v_X - np.einsum("ni,ni->n", n, step.v)[:, None, None] * n_X
     u_X -= n[:, :, None] * np.einsum("nij,ni->nj", n_X, step.v)[:, None, :]
     return u_X, share * pressed.radius[:, None, None] * (P @ skew(n))
+
+
+def cross(a: Array, b: Array) -> Array:
+    """a × b, shape (n, 3); NumPy's own takes ten times as long on the few hundred points of a rod."""
+    c = np.empty_like(a)
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        c[:, i] = a[:, j] * b[:, k] - a[:, k] * b[:, j]
+    return c
 
 
 def skew(a: Array) -> Array:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
 from dolfinrod.scene.pressing import Pressing
 from dolfinrod.scene.reply import OPEN, SLIDES, STICKS, Booked, Gradient, Reply
-from dolfinrod.scene.rubbing import Pressed, Step, rubbed, skew, slip_gradients, traction_gradient
+from dolfinrod.scene.rubbing import Pressed, Step, cross, rubbed, skew, slip_gradients, traction_gradient
 from dolfinrod.scene.surfaces import REST, Pose
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ class Touch:
             t = step.rubbing.traction
             state[on] = np.where(pressed.p != 0.0, np.where(step.rubbing.slides, SLIDES, STICKS), OPEN)
             traction[on] = t @ Q.T
-            moment[on] = -pressed.radius[:, None] * np.cross(pressed.n, t) @ Q.T
+            moment[on] = -pressed.radius[:, None] * cross(pressed.n, t) @ Q.T
         elif isinstance(self._friction, CreepingCoulomb):
             v, speed = self._velocity(x[on])
             traction[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
@@ -137,7 +137,7 @@ class Touch:
         far = self._afar[on]
         way = np.where(far & (self._gap_0 > gap)[on], (self._gap_0 - gap)[on], 1.0)
         share = np.where(far, np.clip((self._pressing.law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
-        w = (X - self._X_0)[on] - pressed.radius[:, None] * np.cross(turned[on], pressed.n)
+        w = (X - self._X_0)[on] - pressed.radius[:, None] * cross(turned[on], pressed.n)
         v = self._u[on] + share[:, None] * w
         rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on])
         return Step(X, turned, gap, on, pressed, share, w, v, rubbing)
