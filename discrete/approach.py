@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.assembly import gather
-from discrete.equilibrium import LARGEST_TURN, chord_spin
 from discrete.rotation import exp
 from discrete.step import StepLostError
+from discrete.turning import LARGEST_TURN, chord_spin
 from discrete.unknowns import SPIN, SPIN_I, SPIN_J, X_I, X_J, X
 from discrete.watch import ALIASED, WANDERING, Watch
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from discrete.equilibrium import Element
+    from discrete.constitution import Element
     from discrete.mesh import Mesh
     from discrete.step import Step
 

@@ -116,4 +116,4 @@ class Branches:
         return rate_of_state(self._equilibrium, self._scene, state, t, tangent)
 
     def _tangent(self, state: State, t: float) -> Tangent:
-        return self._equilibrium.tangent(state, self._equilibrium.loads.level(t))
+        return self._equilibrium.tangent(state, self._equilibrium.loads.level(t), t)

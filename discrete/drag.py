@@ -32,11 +32,7 @@ class Drag:
 
     def __init__(self, air: Air, mesh: Mesh, sections: Sequence[Section]) -> None:
         self._air, self._unit, self._origin = air, mesh.units.length, mesh.origin
-        node_i, half = mesh.elements.node_i, 0.5 * mesh.elements.l * mesh.units.length
-        length = np.zeros(len(mesh.x))
-        length[node_i] = half
-        length[node_i + 1] += half
-        self._share = length / mesh.units.force
+        self._share = mesh.share * mesh.units.length / mesh.units.force
         self._d = np.repeat([2.0 * (section.radius or 0.0) for section in sections], np.diff(mesh.first))
 
     def force(self, x: Array, R: Array, v: Array, t: float) -> Array:

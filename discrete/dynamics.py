@@ -5,13 +5,14 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+from discrete.contact import contacts_of
 from discrete.damping import Damping
 from discrete.drag import Drag
 from discrete.euler import BackwardEuler
 from discrete.failure import advice
 from discrete.kept import motion_of, resume_motion
 from discrete.laws import Damped, Elastic
-from discrete.ledger import WORKS, Ledger
+from discrete.ledger import WORKS, WORKS_THERE, Ledger
 from discrete.loads import Loads
 from discrete.marching import March
 from discrete.mass import node_masses
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from discrete.equilibrium import Element
+    from discrete.constitution import Element
     from discrete.euler import Taken
     from discrete.mesh import Mesh
     from discrete.moving import Moving
@@ -94,7 +95,8 @@ def _method(scene: Scene, cut: Mesh, law: Element, chosen: Mapping[str, str]) ->
     inertia = Inertia(*node_masses(cut, sections, whole_ends=chosen["end_mass"] == "paper"))
     drag = None if scene.air is None else Drag(scene.air, cut, sections)
     added = chosen["rotation"] == "added"
-    method = BackwardEuler(cut, Loads(scene, cut), Supports(scene, cut), inertia, drag, added=added)
+    contacts = contacts_of(scene, cut)
+    method = BackwardEuler(cut, Loads(scene, cut), Supports(scene, cut), inertia, drag, contacts, added=added)
     if not any(section.damping for section in sections):
         return method, Elastic(cut, law)
     return method, Damped(cut, Damping(cut.elements, sections, paper_strain=chosen["axial"] == "paper"))
@@ -125,6 +127,7 @@ def _followed(
     notes = tuple(f'{name}="{value}"' for name, value in chosen.items() if value != PLAIN[name])
     seconds = (started - begun, time.perf_counter() - started)
     found, state = formulation(scene, cut, notes), stored_motion(march.mark.state, march.mark.step, cut)
+    state |= dict(march.mark.entry.memory)
     result = trajectory.result(found, state, seconds, converged=failure is None)
     if failure is None:
         return result
@@ -163,13 +166,21 @@ def _begin(timed: Scene, scene: Scene, method: BackwardEuler, start: Result | No
     """The first state and the works done before it: from rest, from the shape of a result, or where one ended."""
     state = initial(timed, method.mesh, method.supports)
     if start is None:
+        _touch(method, state, {})
         return state, {}
     goes_on = start.scene == scene and float(start.t[-1]) < scene.motion.t_end
     state = moving_on(start.state, state, method.mesh, float(start.t[-1]) if goes_on else None)
+    _touch(method, state, start.state if goes_on else {})
     if not goes_on:
         return state, {}
-    unit = method.mesh.units.moment
-    return state, {name: float(start.energy[name][-1]) / unit for name in WORKS if name in start.energy}
+    unit, known = method.mesh.units.moment, (*WORKS, *WORKS_THERE)
+    return state, {name: float(start.energy[name][-1]) / unit for name in known if name in start.energy}
+
+
+def _touch(method: BackwardEuler, state: Moving, arrays: Mapping[str, Array]) -> None:
+    """Surfaces begin there, with what `arrays` tell that they remember."""
+    if method.contacts is not None:
+        method.contacts.recall(arrays, state.x, state.R, state.t)
 
 
 def _check(scene: Scene, chosen: Mapping[str, str]) -> None:

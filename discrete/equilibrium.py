@@ -16,21 +16,27 @@ The limit of the iteration is that of the displacement form; only the way there 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from discrete.assembly import SingularTangentError, gather, scatter
+from discrete.grip import Grip, gripped
 from discrete.nodes import NodalSystem
-from discrete.record import Snapshot, evenly
-from discrete.rotation import cross, exp
+from discrete.record import Snapshot, evenly, halved
+from discrete.rotation import exp
 from discrete.state import Outcome, State
+from discrete.turning import LARGEST_TURN, chord_spin
 from discrete.unknowns import SPIN, SPIN_I, SPIN_J, X_I, X_J, X
 from discrete.watch import ALIASED, WANDERING, Watch
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
+    from discrete.constitution import Element
+    from discrete.contact import Contacts
     from discrete.loads import LoadLevel, Loads
     from discrete.mesh import Mesh
     from discrete.nodes import Tangent
@@ -38,34 +44,15 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["LARGEST_TURN", "Element", "Equilibrium", "chord_spin"]
+__all__ = ["LARGEST_TURN", "Element", "Equilibrium"]
 
-# Largest turn of a section or chord in one iteration [rad].
-LARGEST_TURN = 1.5
 # Increments at which the iteration has converged: radians, lengths over L, forces over the largest one or EI/L².
 TOLERANCE = 1e-9
 MOST_ITERATIONS = 60
 SETTLED = "the increments fell below the tolerance"
-
-
-class Element(Protocol):
-    """Law of an element; see `corotation.ChordElement` for arguments and shapes."""
-
-    def chord(self, u: Array, E: Array, F_n: Array) -> Array:
-        """Chord of a direction whose elongation obeys Eq. 16."""
-        ...
-
-    def axial(self, N: Array, u: Array, E: Array) -> Array:
-        """Axial force of a spatial force."""
-        ...
-
-    def measure(self, e: Array, E: Array, F_n: Array) -> tuple[Array, Array]:
-        """End forces and strain energy."""
-        ...
-
-    def respond(self, e: Array, E: Array, F_n: Array) -> tuple[Array, Array]:
-        """End forces and their derivative."""
-        ...
+# An increment, in L and radians, after which no surface is found again.
+RUNAWAY = 1e6
+CIRCLING = "rods touched and left surfaces, stuck and slid, again and again"
 
 
 class Equilibrium:
@@ -76,10 +63,14 @@ class Equilibrium:
         element: Law of the elements.
         loads: What acts.
         supports: What holds.
+        contacts: What the rods touch; None: nothing.
     """
 
-    def __init__(self, mesh: Mesh, element: Element, loads: Loads, supports: Supports) -> None:
+    def __init__(
+        self, mesh: Mesh, element: Element, loads: Loads, supports: Supports, contacts: Contacts | None = None
+    ) -> None:
         self.mesh, self.element, self.loads, self.supports = mesh, element, loads, supports
+        self.contacts = contacts
         self.hold(np.zeros(0, dtype=np.int64))
 
     def hold(self, unknowns: NDArray[np.int64]) -> None:
@@ -94,11 +85,34 @@ class Equilibrium:
         return State(mesh.x, mesh.R, u, np.zeros(len(u)), np.zeros(self.supports.n_factors))
 
     def snapshot(self, state: State, t: float) -> Snapshot:
-        """What is kept of an equilibrium at a pseudo-time."""
+        """What is kept of an equilibrium that counts, at a pseudo-time."""
         E = self.mesh.elements.triads(state.R)
         e = self.element.chord(state.u, E, state.F_n)
         force, energy = self.element.measure(e, E, state.F_n)
-        return Snapshot(t, state.x, state.R, force, evenly(self.loads.level(t).line), float(energy.sum()))
+        halves, touching = evenly(self.loads.level(t).line), None
+        if self.contacts is not None:
+            touching = self.contacts.record()
+            halves += halved(self.contacts.force(state.x, state.R)[:, X], self.mesh)
+        return Snapshot(t, state.x, state.R, force, halves, float(energy.sum()), touching=touching)
+
+    def acting(self, state: State, t: float) -> tuple[Array, ...]:
+        """Loads, and what surfaces answer at the pseudo-time t of the last attempt, shapes (n_nodes, 7)."""
+        loads = self.loads.level(t).at(state.R)
+        return (loads,) if self.contacts is None else (loads, self.contacts.force(state.x, state.R))
+
+    def place(self, state: State, t: float, arrays: Mapping[str, Array]) -> None:
+        """Begin at a state, of which surfaces remember what `arrays` in SI units tell, if anything."""
+        if self.contacts is not None:
+            self.contacts.recall(arrays, state.x, state.R, t)
+
+    def memory(self) -> dict[str, Array]:
+        """What surfaces remember of the last state that counts."""
+        return {} if self.contacts is None else self.contacts.memory()
+
+    def accept(self, state: State, t: float) -> None:
+        """An equilibrium counts: the next attempts lead on from there."""
+        if self.contacts is not None:
+            self.contacts.accept(state.x, state.R, t)
 
     def find(self, state: State, t: float, trust: float = np.inf) -> Outcome:
         """Equilibrium at a pseudo-time.
@@ -111,18 +125,29 @@ class Equilibrium:
         Returns:
             Outcome; its state is meaningless where it did not converge.
         """
+        if self.contacts is None:
+            return self._found(t, trust, None, state, MOST_ITERATIONS, TOLERANCE)
+        contacts = self.contacts
+
+        def find(state: State, most: int, fine: float) -> Outcome:
+            return self._found(t, trust, Grip(contacts), state, most, fine)
+
+        return gripped(contacts, state, t, find, MOST_ITERATIONS, TOLERANCE)
+
+    def _found(self, t: float, trust: float, grip: Grip | None, state: State, most: int, fine: float) -> Outcome:
+        """Newton's method: most iterations, and increments at which it is done; other arguments as for `find`."""
         level, goal = self.loads.level(t), self.supports.factors(t)
         step, watch = _Step(state, np.inf, np.inf, np.inf, None), Watch(self.mesh.elements, state.R)
-        reason = f"no convergence in {MOST_ITERATIONS} iterations"
-        for iteration in range(1, MOST_ITERATIONS + 1):
+        reason = f"no convergence in {most} iterations"
+        for iteration in range(1, most + 1):
             try:
                 # A chord that vanishes has no direction; what is not finite then ends the iteration below.
                 with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-                    step = self._iterate(step.state, level, goal, watch)
+                    step = self._iterate(step.state, level, goal, watch, grip)
             except SingularTangentError as error:
                 reason = str(error)
                 break
-            if step.change < TOLERANCE:
+            if step.change < fine:
                 reason = ALIASED if watch.aliased else SETTLED
                 break
             if not np.isfinite(step.change):
@@ -131,13 +156,16 @@ class Equilibrium:
             if watch.wandering:
                 reason = ALIASED if watch.aliased else WANDERING
                 break
+            if grip is not None and (grip.circling or step.change > RUNAWAY):
+                reason = CIRCLING
+                break
             if iteration == 1 and step.turn > trust:
                 reason = "the iteration leads off the extrapolated path"
                 break
         turned, strayed = watch.turned, watch.strayed
         return Outcome(step.state, reason == SETTLED, iteration, step.residual, reason, turned, step.tangent, strayed)
 
-    def _iterate(self, state: State, level: LoadLevel, goal: Array, watch: Watch) -> _Step:
+    def _iterate(self, state: State, level: LoadLevel, goal: Array, watch: Watch, grip: Grip | None) -> _Step:
         """One Newton iteration."""
         node_i = self.mesh.elements.node_i
         E = self.mesh.elements.triads(state.R)
@@ -147,8 +175,12 @@ class Equilibrium:
         force += np.matmul(tangent[:, :, X_J], gap[:, :, None])[:, :, 0]
         end = tangent[:, X_J].copy()
         missing = level.at(state.R) - scatter(force, node_i, len(state.x))
-        held = self.supports.increments(state.x, state.factors, goal)
-        d, residual, worked_in = self._system.increments(tangent, missing, held, level, self.supports.guides, state.R)
+        touched = None
+        if grip is not None:
+            missing += grip.press(state)
+            touched = grip.touched
+        held, guides = self.supports.increments(state.x, state.factors, goal), self.supports.guides
+        d, residual, worked_in = self._system.increments(tangent, missing, held, level, guides, state.R, touched)
         own = gather(d, node_i)
         N = force[:, X_J] + np.matmul(end, own[:, :, None])[:, :, 0]
         spin = chord_spin(state.u, own[:, X_J] - own[:, X_I] + gap, 0.5 * (own[:, SPIN_I] + own[:, SPIN_J]), e)
@@ -156,14 +188,17 @@ class Equilibrium:
         watch.see(bite * d[:, SPIN], new.R)
         scale = max(1.0, float(np.abs(new.F_n).max()))
         change = max(turn, float(np.abs(d[:, X]).max()), float(np.abs(new.F_n - state.F_n).max()) / scale)
+        if grip is not None and change < TOLERANCE:
+            change = max(change, grip.surprise(d, new) / scale)
         return _Step(new, change, turn, residual, worked_in)
 
-    def tangent(self, state: State, level: LoadLevel) -> Tangent:
+    def tangent(self, state: State, level: LoadLevel, t: float | None = None) -> Tangent:
         """Tangent of a state whose chords join its nodes.
 
         Args:
             state: Near an equilibrium.
             level: Loads.
+            t: Pseudo-time at which walls are where they are; None: that of the last attempt.
 
         Returns:
             With all that acts at single nodes.
@@ -172,8 +207,12 @@ class Equilibrium:
         e = state.x[node_i + 1] - state.x[node_i]
         force, tangent = self.element.respond(e, self.mesh.elements.triads(state.R), state.F_n)
         missing = level.at(state.R) - scatter(force, node_i, len(state.x))
+        touched = None
+        if self.contacts is not None:
+            missing += self.contacts.at(state.x, state.R, t)
+            touched = self.contacts.blocks()
         held = np.zeros_like(missing)
-        return self._system.tangent(tangent, missing, held, level, self.supports.guides, state.R)
+        return self._system.tangent(tangent, missing, held, level, self.supports.guides, state.R, touched)
 
     def _moved(self, state: State, d: Array, spin: Array, N: Array, goal: Array) -> tuple[State, float, float]:
         """State after an increment, the largest turn asked for, and the part of it that was granted."""
@@ -203,13 +242,3 @@ class _Step:
 def _largest(vectors: Array) -> float:
     """Largest square of the length."""
     return float(np.einsum("ni,ni->n", vectors, vectors).max())
-
-
-def chord_spin(u: Array, change: Array, spin: Array, e: Array) -> Array:
-    """Spin of a chord: as its ends move across it, u×δe/L, and along it as the sections turn on the mean.
-
-    The second part leaves u as it is when small; without it a large increment would turn chords and sections about
-    different axes and tear them apart.
-    """
-    length = np.sqrt(np.einsum("ni,ni->n", e, e))
-    return cross(u, change) / length[:, None] + np.einsum("ni,ni->n", u, spin)[:, None] * u

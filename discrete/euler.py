@@ -6,7 +6,6 @@ short steps.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,14 +16,16 @@ from discrete.ends import Ends
 from discrete.factors import Workshop
 from discrete.rotation import tangents
 from discrete.step import Step, StepLostError
-from discrete.taken import Taken
+from discrete.taken import Balance, Taken
 from discrete.unknowns import SPIN, X
+from discrete.walls import Walls
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from discrete.constitution import Element
+    from discrete.contact import Contacts
     from discrete.drag import Drag
-    from discrete.equilibrium import Element
     from discrete.factors import Factors, Increments
     from discrete.loads import LoadLevel, Loads
     from discrete.mesh import Mesh
@@ -47,35 +48,6 @@ MOST_ITERATIONS = 30
 RUNAWAY = 0.5
 
 
-@dataclass(frozen=True, eq=False)
-class _Balance:
-    """Forces in a configuration, names as in `Taken`.
-
-    Args:
-        x: Positions, shape (3, n_nodes).
-        R: Section frames, shape (3, 3, n_nodes).
-        e: Chords, shape (n, 3).
-        E: Triads attached to their ends, shape (n, 2, 3, 3).
-        force: Shape (n, 13).
-        energy: Of each element, shape (n,).
-        internal: Shape (7, n_nodes).
-        drag: Shape (n_nodes, 3).
-        moment: That of inertia, shape (n_nodes, 3).
-        missing: Shape (7, n_nodes).
-    """
-
-    x: Array
-    R: Array
-    e: Array
-    E: Array
-    force: Array
-    energy: Array
-    internal: Array
-    drag: Array
-    moment: Array
-    missing: Array
-
-
 class BackwardEuler:
     """Steps in time of one scene and mesh.
 
@@ -85,17 +57,28 @@ class BackwardEuler:
         supports: What holds.
         inertia: Of the nodes.
         drag: Of the air; None where there is none.
+        contacts: What the rods touch; None: nothing.
         added: Whether rotation vectors are added up, R₁ = exp(Σ Δt ω) R at the start: no rotation once the axis of the
             spin changes, and lost at a full turn.
     """
 
     def __init__(
-        self, mesh: Mesh, loads: Loads, supports: Supports, inertia: Inertia, drag: Drag | None, *, added: bool
+        self,
+        mesh: Mesh,
+        loads: Loads,
+        supports: Supports,
+        inertia: Inertia,
+        drag: Drag | None,
+        contacts: Contacts | None = None,
+        *,
+        added: bool,
     ) -> None:
         self.mesh, self.loads, self.supports, self.inertia = mesh, loads, supports, inertia
         self._drag, self._added = drag, added
         self._ends = Ends(mesh.elements, len(mesh.x))
-        self._workshop = Workshop(mesh, supports, inertia.m if drag is None else None)
+        self._walls = None if contacts is None else Walls(contacts)
+        self.contacts = contacts
+        self._workshop = Workshop(mesh, supports, inertia.m if drag is None and contacts is None else None)
         self._still = np.zeros_like(mesh.x)
 
     @property
@@ -141,13 +124,19 @@ class BackwardEuler:
     def _begun(self, now: Moving, t: float, *, staying: bool) -> Step:
         """First guess of a step."""
         self._workshop.check(t - now.t)
+        if self._walls is not None:
+            self._walls.begin(t)
         return Step(self.mesh, self.supports, now, t, added=self._added, staying=staying)
 
     def _iterated(self, step: Step, law: Element, level: LoadLevel, spent: int) -> Taken:
         """Newton's method with factors that may be old, after some iterations of another kind."""
-        workshop, before, left = self._workshop, np.inf, 0.0
-        for iteration in range(1, MOST_ITERATIONS + 1):
+        workshop, walls, before, left = self._workshop, self._walls, np.inf, 0.0
+        iteration = 0
+        while iteration < MOST_ITERATIONS * (1 if walls is None else 1 + walls.renewals):
+            iteration += 1
             balance = self._balance(step, law, level)
+            if walls is not None and walls.changed:
+                workshop.factors = None
             fresh = workshop.factors is None
             factors = workshop.factors or self._factors_at(step, law, level, balance)
             found = workshop.increments(factors, balance.missing, balance.R)
@@ -155,10 +144,11 @@ class BackwardEuler:
                 raise StepLostError("the iteration diverged")
             step.move(found.d)
             goal = min(TOLERANCE * step.motion(), FINEST)
-            done = iteration > 1 and workshop.wear.enough(found.size, before, goal)
+            exact = found.size == 0.0 or (found.size < ROUND_OFF and found.size > 0.25 * before)
+            done = exact or (iteration > 1 and workshop.wear.enough(found.size, before, goal))
             if iteration > 2 and not fresh:
                 left = max(left, found.size / before)
-            if done or found.size == 0.0 or (found.size < ROUND_OFF and found.size > 0.25 * before):
+            if done and (walls is None or walls.agree(step, exact=exact)):
                 if workshop.wear.see(iteration, left):
                     workshop.factors = None
                 return self._taken(step, found, balance, level, spent + iteration)
@@ -167,37 +157,41 @@ class BackwardEuler:
             before = found.size
         raise StepLostError(f"no convergence in {MOST_ITERATIONS} iterations")
 
-    def _balance(self, step: Step, law: Element, level: LoadLevel) -> _Balance:
+    def _balance(self, step: Step, law: Element, level: LoadLevel) -> Balance:
         """All forces as far as the iteration has come."""
         x, R = step.configuration()
         e, E = self._ends.chords(x).T, self._ends.triads(R).transpose(3, 2, 0, 1)
         force, energy = law.measure(e, E, step.F_n)
         internal = self._ends.scatter(force.T)
-        missing, drag, moment = self._outer(step, x, R, level)
+        missing, drag, pressed, moment = self._outer(step, x, R, level)
         missing -= internal
-        return _Balance(x, R, e, E, force, energy, internal, drag, moment, missing)
+        return Balance(x, R, e, E, force, energy, internal, drag, pressed, moment, missing)
 
-    def _outer(self, step: Step, x: Array, R: Array, level: LoadLevel) -> tuple[Array, Array, Array]:
-        """Loads, drag and inertia together by rows, the drag alone and the moment that inertia takes."""
+    def _outer(self, step: Step, x: Array, R: Array, level: LoadLevel) -> tuple[Array, Array, Array | None, Array]:
+        """Loads, drag, surfaces and inertia together by rows; of these drag, surfaces and the moment of inertia."""
         frames = R.transpose(2, 0, 1)
         outer, drag = level.at(frames).T.copy(), self._still
         if self._drag is not None:
             drag = self._drag.force(x.T, frames, step.v.T, step.t)
             outer[X] += drag.T
+        pressed = None
+        if self._walls is not None:
+            pressed = self._walls.press(x, frames)
+            outer += pressed
         moment = self.inertia.moment(frames, step.Ω.T, step.ΔΩ.T, step.dt)
         outer[X] -= self.inertia.force(step.Δv.T, step.dt).T
         outer[SPIN] -= moment.T
-        return outer, drag, moment
+        return outer, drag, pressed, moment
 
     def _increments(self, level: LoadLevel, step: Step, force: Array, tangent: Array) -> Array:
         """Increments by new factors for given end forces and their derivative, shape (7, n_nodes)."""
         x, R = step.configuration()
-        missing, _, moment = self._outer(step, x, R, level)
+        missing, _, _, moment = self._outer(step, x, R, level)
         missing -= self._ends.scatter(force.T)
         factors = self._factors(step, tangent, level, (x, R, moment, missing))
         return self._workshop.increments(factors, missing, R).d
 
-    def _factors_at(self, step: Step, law: Element, level: LoadLevel, at: _Balance) -> Factors:
+    def _factors_at(self, step: Step, law: Element, level: LoadLevel, at: Balance) -> Factors:
         """New factors where the iteration has come to."""
         # Many small matrices are made of these: one after the other in memory that is quicker.
         _, stiffness = law.respond(np.ascontiguousarray(at.e), np.ascontiguousarray(at.E), step.F_n)
@@ -214,11 +208,12 @@ class BackwardEuler:
         if self._drag is not None:
             drag = self._drag.blocks(x.T, frames, step.v.T, step.t, step.dt)
             blocks += drag
-        return self._workshop.make(stiffness, blocks, drag, step.dt, missing, level, R)
+        touched = None if self._walls is None else self._walls.touched()
+        return self._workshop.make(stiffness, blocks, drag, touched, step.dt, missing, level, R)
 
-    def _taken(self, step: Step, found: Increments, at: _Balance, level: LoadLevel, iterations: int) -> Taken:
+    def _taken(self, step: Step, found: Increments, at: Balance, level: LoadLevel, iterations: int) -> Taken:
         """The step, what acted before its last increment carried on along it."""
-        change = found.stretched(self._ends)
+        change, yielded = found.stretched(self._ends), found.pressed()
         added = self._ends.scatter(change)
         energy = float(at.energy.sum()) + float(np.vdot(at.internal + 0.5 * added, found.d))
         state = step.end()
@@ -232,5 +227,6 @@ class BackwardEuler:
             level=level,
             acting=level.at(state.R),
             drag=at.drag + found.slowed(),
-            missing=(at.missing - added).T,
+            missing=(at.missing - added).T + yielded,
+            pressed=None if at.pressed is None else at.pressed.T + yielded,
         )

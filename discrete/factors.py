@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from discrete.mesh import Mesh
     from discrete.nodes import Tangent
     from discrete.supports import Supports
+    from discrete.touched import Touched
 
     Array = NDArray[np.float64]
 
@@ -47,6 +48,8 @@ class Factors:
         R: Section frames where it was made, shape (3, 3, n_nodes).
         stiffness: Of the elements alone, shape (13, 13, n).
         drag: Resistance of the air, shape (3, 6, n_nodes); None where there is none.
+        touched: Resistance of surfaces; None where there are none.
+        askew: Nodes whose forces and increments are not turned back.
         tangent: Everything.
         inverse: Its factors.
     """
@@ -55,6 +58,8 @@ class Factors:
     R: Array
     stiffness: Array
     drag: Array | None
+    touched: Touched | None
+    askew: NDArray[np.int64]
     tangent: Tangent
     inverse: Inverse
 
@@ -82,6 +87,10 @@ class Increments:
     def stretched(self, ends: Ends) -> Array:
         """Change of the end forces, shape (13, n)."""
         return ends.turned(self.Q, np.einsum("abn,bn->an", self.factors.stiffness, ends.gather(self.own)))
+
+    def pressed(self) -> Array | float:
+        """Change of what surfaces do, shape (n_nodes, 7)."""
+        return 0.0 if self.factors.touched is None else self.factors.touched.change(self.d.T)
 
     def slowed(self) -> Array | float:
         """Change of the drag, shape (n_nodes, 3)."""
@@ -125,14 +134,23 @@ class Workshop:
             self.factors = None
 
     def make(
-        self, stiffness: Array, blocks: Array, drag: Array | None, dt: float, missing: Array, level: LoadLevel, R: Array
+        self,
+        stiffness: Array,
+        blocks: Array,
+        drag: Array | None,
+        touched: Touched | None,
+        dt: float,
+        missing: Array,
+        level: LoadLevel,
+        R: Array,
     ) -> Factors:
         """Factorise.
 
         Args:
             stiffness: Of the elements, shape (n, 13, 13).
-            blocks: Of all that acts at single nodes but follower loads and guides, shape (n_nodes, 6, 6).
+            blocks: Of inertia and air at single nodes, shape (n_nodes, 6, 6).
             drag: The part of the air in it; None where there is none.
+            touched: Resistance of surfaces; None where there are none.
             dt: Length of the step.
             missing: What is out of balance, for the answer of guides, shape (7, n_nodes).
             level: Loads.
@@ -149,10 +167,14 @@ class Workshop:
         tangent[:, :AXIAL, :AXIAL] += blocks[self._node_i]
         tangent[self._ends, at_j, at_j] += blocks[self._last]
         scratch = missing.T.copy(), np.zeros_like(self._right)
-        whole = self._system.tangent(tangent, *scratch, level, self._supports.guides, R.transpose(2, 0, 1))
+        guides, frames = self._supports.guides, R.transpose(2, 0, 1)
+        whole = self._system.tangent(tangent, *scratch, level, guides, frames, touched)
         of_elements = np.ascontiguousarray(stiffness.transpose(1, 2, 0))
         of_air = None if drag is None else np.ascontiguousarray(drag[:, X].transpose(1, 2, 0))
-        self.factors, self.made = Factors(dt, R, of_elements, of_air, whole, whole.inverse()), self.made + 1
+        # Surfaces do not turn with the sections that touch them.
+        askew = self._askew if touched is None else np.union1d(self._askew, touched.nodes)
+        at_nodes = of_air, touched, askew
+        self.factors, self.made = Factors(dt, R, of_elements, *at_nodes, whole, whole.inverse()), self.made + 1
         self.wear.renew()
         return self.factors
 
@@ -164,8 +186,8 @@ class Workshop:
         """
         guided = len(self._supports.guides.nodes) > 0
         Q = np.einsum("ijn,kjn->ikn", R, factors.R)
-        if len(self._askew):
-            Q[:, :, self._askew] = np.eye(3)[:, :, None]
+        if len(factors.askew):
+            Q[:, :, factors.askew] = np.eye(3)[:, :, None]
         n, right = len(self._right), self._right
         right[:, :AXIAL] = turn_back(Q, missing[:AXIAL].reshape(2, 3, n)).reshape(AXIAL, n).T
         right[:, AXIAL] = missing[AXIAL]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from discrete.equilibrium import Equilibrium
     from discrete.marching import March
     from discrete.statics import Path
     from discrete.trajectory import Trajectory
@@ -31,7 +32,8 @@ __all__ = ["motion_of", "path_of", "resume_motion", "resume_path"]
 # Names in the file, and those of the records.
 MOVING = {"x": "x", "R": "R", "F_n": "F_n", "v": "v", "omega": "ω", "factors": "factors", "theta": "θ"}
 STATE = {name: name for name in ("x", "R", "u", "F_n", "factors")}
-SNAPSHOT = {name: name for name in ("t", "x", "R", "force", "halves", "energy", "v", "elastic")} | {"omega": "ω"}
+SNAPSHOT = {name: name for name in ("t", "x", "R", "force", "halves", "energy", "v", "elastic", "touching")}
+SNAPSHOT["omega"] = "ω"
 RATES = ("v", "omega", "F_n")
 
 
@@ -57,7 +59,7 @@ def motion_of(march: March, trajectory: Trajectory, seconds: float) -> Arrays:
     arrays |= {f"now/{name}": np.array(value) for name, value in trajectory.entry.now.items()}
     for name in trajectory.books[0]:
         arrays[f"ledger/{name}"] = np.array([book[name] for book in trajectory.books])
-    return arrays | _stacked(trajectory.kept) | columns(trajectory.log)
+    return arrays | _stacked(trajectory.kept) | columns(trajectory.log) | remembered(mark.entry.memory)
 
 
 def resume_motion(march: March, trajectory: Trajectory, kept: Kept) -> None:
@@ -85,20 +87,40 @@ def resume_motion(march: March, trajectory: Trajectory, kept: Kept) -> None:
     if "last/t" in kept.arrays:
         last = _snapshot(_taken(kept, "last", first, SNAPSHOT))
     goals = kept.arrays.get("state/goals", np.zeros(0))
-    entry = Entry(n, len(trajectory.log), now, last)
+    there = trajectory.entry.memory.items()
+    memory = {name: kept.take(f"contact/{name}", values.shape) for name, values in there}
+    entry = Entry(n, len(trajectory.log), now, last, memory)
     march.take_up(Mark(state, kept.number("work/step"), entry, tuple(np.ravel(goals).tolist())))
     trajectory.rewind(entry, state)
 
 
-def path_of(path: Path[Any]) -> Arrays:
-    """All that is kept of an equilibrium path, as far as its log goes."""
+def path_of(path: Path[Any], memory: Arrays) -> Arrays:
+    """All that is kept of an equilibrium path, as far as its log goes.
+
+    Args:
+        path: The path.
+        memory: What contacts remember of its last state.
+
+    Returns:
+        "group/name" → values.
+    """
     n = len(path.log) + 1
     arrays = _fields("state", path.state, STATE) | _work(iterations=path.iterations)
-    return arrays | _stacked(path.kept[:n]) | columns(path.log)
+    return arrays | _stacked(path.kept[:n]) | columns(path.log) | remembered(memory)
 
 
-def resume_path(path: Path[State], kept: Kept) -> None:
+def remembered(memory: Mapping[str, Array]) -> Arrays:
+    """What contacts remember as arrays of the file."""
+    return {f"contact/{name}": values for name, values in memory.items()}
+
+
+def resume_path(path: Path[State], kept: Kept, equilibrium: Equilibrium) -> None:
     """Make a path that has just begun the one that `path_of` kept.
+
+    Args:
+        path: Newly made.
+        kept: From `path_of`.
+        equilibrium: Solver of the scene, whose contacts are to remember what they did.
 
     Raises:
         SceneError: It does not fit.
@@ -108,6 +130,8 @@ def resume_path(path: Path[State], kept: Kept) -> None:
     kept.take("stored/t", (len(path.log) + 1,))
     path.kept[:] = _snapshots(kept, like)
     path.state, path.iterations = state, kept.count("work/iterations")
+    memory = {name: kept.take(f"contact/{name}", values.shape) for name, values in equilibrium.memory().items()}
+    equilibrium.place(state, path.kept[-1].t, memory)
 
 
 def _work(**numbers: float) -> Arrays:

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from discrete.constitution import Element
     from discrete.damping import Damping, Strain
-    from discrete.equilibrium import Element
     from discrete.euler import Taken
     from discrete.mesh import Mesh
     from discrete.moving import Moving

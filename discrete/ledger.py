@@ -2,6 +2,9 @@
 
 kinetic + strain + potential − their first values = load work + support work + drag + damping + numerical.
 
+With surfaces there is what contact stores on the left as well, and the works of friction and of moving walls on the
+right. The law of pressures is convex, so that steps lose the energy −p₁ (g₁ − g₀) − ΔU of a penetration, too.
+
 Every entry is worked out from what it names, so that the law holds as well as the steps are solved. With Δq = Δt (v, ω)
 and P the internal forces at the end of a step, the scheme loses ½ Δv·m Δv + ½ ΔΩ·J* ΔΩ of the kinetic and, for all
 strain that is convex, a positive P·Δq − ΔU of the elastic energy.
@@ -24,14 +27,17 @@ if TYPE_CHECKING:
 
     from discrete.euler import BackwardEuler, Taken
     from discrete.moving import Moving
+    from discrete.touched import Booking
     from dolfinrod.scene import Scene
 
     Array = NDArray[np.float64]
 
-__all__ = ["Ledger"]
+__all__ = ["WORKS", "WORKS_THERE", "Ledger"]
 
 STORED = ("kinetic", "strain", "potential")
 WORKS = ("load work", "support work", "drag", "damping", "numerical")
+# Of scenes with contacts.
+WORKS_THERE = ("friction", "wall work")
 
 
 class Ledger:
@@ -54,10 +60,13 @@ class Ledger:
         weights = [(load, self._weight(load)) for load in scene.loads if isinstance(load, Gravity)]
         self._weights = [(load, weight, float(weight.sum(axis=1) @ origin)) for load, weight in weights]
         self._firm, self._guided = method.supports.firm_rows, method.supports.guides.nodes
-        self.now = dict.fromkeys((*STORED, *WORKS), 0.0) | dict(works)
+        self.now = dict.fromkeys((*STORED, *WORKS), 0.0)
+        if method.contacts is not None:
+            self.now |= {"contact": method.contacts.stored(), **dict.fromkeys(WORKS_THERE, 0.0)}
+        self.now |= works
         self._keep(start, in_body(start.R, start.ω), strain)
 
-    def add(self, before: Moving, step: Taken, strain: float, damped: float) -> None:
+    def add(self, before: Moving, step: Taken, strain: float, damped: float, booked: Booking | None) -> None:
         """Enter a step.
 
         Args:
@@ -65,6 +74,7 @@ class Ledger:
             step: The step.
             strain: Strain energy at its end.
             damped: Energy that the sections have dissipated.
+            booked: What surfaces have; None where there are none.
         """
         new, now = step.state, self.now
         dt = new.t - before.t
@@ -84,6 +94,12 @@ class Ledger:
         now["drag"] += float(np.vdot(step.drag.T, moved[X]))
         now["damping"] -= damped
         now["numerical"] += guides - lost
+        if booked is not None and step.pressed is not None:
+            given = float(np.vdot(step.pressed.T[:AXIAL], moved)) - booked.pushed + booked.rubbed
+            now["numerical"] += given + booked.stored - now["contact"]
+            now["contact"] = booked.stored
+            now["friction"] -= booked.rubbed
+            now["wall work"] += booked.pushed
 
     def _keep(self, state: Moving, Ω: Array, strain: float) -> None:
         """Energies of a state."""

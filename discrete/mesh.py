@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -107,6 +108,15 @@ class Mesh:
     x: Array
     R: Array
     elements: Elements
+
+    @cached_property
+    def share(self) -> Array:
+        """Length for which each node stands: half of the elements there, shape (n_nodes,)."""
+        node_i, half = self.elements.node_i, 0.5 * self.elements.l
+        share = np.zeros(len(self.x))
+        share[node_i] = half
+        share[node_i + 1] += half
+        return share
 
     def node(self, rod: int, s: float) -> int:
         """Node of a rod nearest to an arc length [m]."""

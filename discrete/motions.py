@@ -40,10 +40,16 @@ def cost_nothing(tangent: Tangent, motions: Array) -> NDArray[np.bool_]:
     v = motions.reshape(-1, N_NODE, motions.shape[1])
     w = np.concatenate([v[node_i], v[node_i + 1, :AXIAL]], axis=1)
     w[:, X_J] -= w[:, X_I]
-    K = tangent.elements.copy()
+    K, touched = tangent.elements.copy(), tangent.touched
+    if touched is not None:
+        touched.enter(K, node_i, -1.0)
     # What a translation meets, of the columns nothing, of the rows the forces that follow a section.
     K[:, X_I] += K[:, X_J]
     K[:, :, X_I] = 0.0
     energy = np.einsum("nam,nam->nm", w, np.matmul(K, w))
     terms = np.einsum("nam,nam->m", np.abs(w), np.matmul(np.abs(K), np.abs(w)))
+    if touched is not None:
+        at, B = v[touched.nodes, :AXIAL], touched.blocks
+        energy = np.concatenate([energy, np.einsum("nam,nam->nm", at, np.matmul(B, at))])
+        terms += np.einsum("nam,nam->m", np.abs(at), np.matmul(np.abs(B), np.abs(at)))
     return np.asarray(np.abs(energy.sum(axis=0)) <= BALANCED * np.abs(energy).sum(axis=0) + ROUND_OFF * terms)

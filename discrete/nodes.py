@@ -1,4 +1,4 @@
-"""What acts at single nodes, worked into the system of the elements: supports, guides, follower loads."""
+"""What acts at single nodes, worked into the system of the elements: supports, guides, follower loads, surfaces."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from discrete.loads import LoadLevel
     from discrete.mesh import Mesh
     from discrete.supports import Guides
+    from discrete.touched import Touched
 
     Array = NDArray[np.float64]
     Indices = NDArray[np.int64]
@@ -33,12 +34,14 @@ class Tangent:
         elements: Of the elements, shape (n, 13, 13).
         guided: Nodes whose spins stand in axes of their own, shape (m,).
         axes: These axes as columns, shape (m, 3, 3).
+        touched: The part of surfaces in it, in the axes of the unknowns; None where there is none.
     """
 
     system: BandedSystem
     elements: Array
     guided: Indices
     axes: Array
+    touched: Touched | None = None
 
     def inverse(self) -> Inverse:
         """Its factors; SingularTangentError where there are none."""
@@ -84,7 +87,14 @@ class NodalSystem:
         self._ends[node_i + 1] = np.arange(len(node_i))
 
     def increments(
-        self, tangent: Array, missing: Array, held: Array, level: LoadLevel, guides: Guides, R: Array
+        self,
+        tangent: Array,
+        missing: Array,
+        held: Array,
+        level: LoadLevel,
+        guides: Guides,
+        R: Array,
+        touched: Touched | None = None,
     ) -> tuple[Array, float, Tangent]:
         """Solve for the increments of all nodes.
 
@@ -95,6 +105,7 @@ class NodalSystem:
             level: Loads, of which the follower ones add stiffness.
             guides: Sections with one held component of the rotation vector.
             R: Section frames, shape (n_nodes, 3, 3).
+            touched: Resistance of surfaces.
 
         Returns:
             Increments, shape (n_nodes, 7), the largest free out-of-balance force or moment before them, the tangent.
@@ -102,7 +113,7 @@ class NodalSystem:
         Raises:
             SingularTangentError: There is no solution.
         """
-        worked_in = self.tangent(tangent, missing, held, level, guides, R)
+        worked_in = self.tangent(tangent, missing, held, level, guides, R, touched)
         right = missing.reshape(-1)
         right[self._band.held] = 0.0
         residual = float(np.abs(np.delete(missing, AXIAL, axis=1)).max())
@@ -111,15 +122,25 @@ class NodalSystem:
         return worked_in.in_space(d), residual, worked_in
 
     def tangent(
-        self, elements: Array, missing: Array, held: Array, level: LoadLevel, guides: Guides, R: Array
+        self,
+        elements: Array,
+        missing: Array,
+        held: Array,
+        level: LoadLevel,
+        guides: Guides,
+        R: Array,
+        touched: Touched | None = None,
     ) -> Tangent:
         """Work what acts at single nodes into tangent and right-hand sides; arguments as for `increments`."""
         if len(level.followed):
             self._add(elements, level.followed, slice(0, AXIAL), level.stiffness(R))
+        if touched is not None:
+            touched.enter(elements, self._band.node_i)
         axes = np.zeros((0, 3, 3))
         if len(guides.nodes):
             axes = self._guide(elements, missing, held, guides, R)
-        return Tangent(self._band, elements, guides.nodes, axes)
+            touched = None if touched is None else touched.in_axes(guides.nodes, axes)
+        return Tangent(self._band, elements, guides.nodes, axes, touched)
 
     def _guide(self, tangent: Array, missing: Array, held: Array, guides: Guides, R: Array) -> Array:
         """Turn the spins of guided nodes into axes whose first is the held one.

@@ -9,8 +9,9 @@ import numpy as np
 
 from discrete.rotation import exp
 from discrete.state import State
+from discrete.statics import corners
 from discrete.unknowns import AXIAL, N_NODE, SPIN, X
-from dolfinrod.scene import factor, kinks
+from dolfinrod.scene import factor
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,6 +40,8 @@ def varies(scene: Scene, t: float) -> bool:
     """Whether any load or prescribed motion changes from a pseudo-time on."""
     weights = _difference(scene, t)
     parts = [part for part in (*scene.supports, *scene.loads) if hasattr(part, "history")]
+    if any(contact.surface.motion is not None for contact in scene.contacts):
+        return True
     rates = [sum(w * factor(part.history, t + a, scene.motion.t_end) for a, w in weights) for part in parts]
     return any(abs(rate) > UNCHANGED / scene.motion.t_end for rate in rates)
 
@@ -62,6 +65,8 @@ def rate_of_state(equilibrium: Equilibrium, scene: Scene, state: State, t: float
     loads, supports = equilibrium.loads, equilibrium.supports
     weights = _difference(scene, t)
     pushed = np.sum([w * loads.level(t + a).at(state.R) for a, w in weights], axis=0)
+    if equilibrium.contacts is not None:
+        pushed += np.sum([w * equilibrium.contacts.at(state.x, state.R, t + a) for a, w in weights], axis=0)
     change = np.sum([w * supports.factors(t + a) for a, w in weights], axis=0)
     moved, still = (supports.increments(state.x, state.factors, state.factors + c) for c in (change, 0.0 * change))
     held = tangent.system.held
@@ -100,7 +105,7 @@ def rate_of_tangent(
 
     def at(a: float) -> Array:
         grown: LoadLevel = replace(level, dead=level.dead + a * dead, follower=level.follower + a * follower)
-        return equilibrium.tangent(moved(state, node_i, d, a), grown).elements
+        return equilibrium.tangent(moved(state, node_i, d, a), grown, t + a).elements
 
     return np.asarray(sum(w * at(j * h) for j, w in DIFFERENCE) / h)
 
@@ -135,6 +140,6 @@ def _difference(scene: Scene, t: float) -> tuple[tuple[float, float], ...]:
     """
     t_end = scene.motion.t_end
     towards = 1.0 if t < t_end else -1.0
-    corners = [k - t for part in (*scene.supports, *scene.loads) for k in kinks(getattr(part, "history", None))]
-    h = towards * min([AHEAD * t_end, *(0.5 * abs(c) for c in corners if c * towards > 0.0)])
+    ahead = [k - t for k in corners(scene)]
+    h = towards * min([AHEAD * t_end, *(0.5 * abs(c) for c in ahead if c * towards > 0.0)])
     return (0.0, -1.5 / h), (h, 2.0 / h), (2.0 * h, -0.5 / h)

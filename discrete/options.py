@@ -12,7 +12,7 @@ from dolfinrod.scene import Dynamic, SceneError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from discrete.equilibrium import Element
+    from discrete.constitution import Element
     from discrete.mesh import Elements
     from dolfinrod.scene import Scene
 
@@ -47,6 +47,10 @@ def check(chosen: Mapping[str, str], scene: Scene, *, equilibrium: bool, start: 
         return
     if isinstance(scene.motion, Dynamic):
         raise SceneError("equilibrium must be True in a Dynamic motion: its steps are fully implicit")
+    if scene.contacts:
+        raise SceneError(
+            "equilibrium must be True where rods touch surfaces: nothing is iterated, not even who touches"
+        )
     for name, value in (("start", start), ("checkpoint", checkpoint)):
         if value is not None:
             raise SceneError(f"{name} must be None where equilibrium is False: end forces carried along are not kept")

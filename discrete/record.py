@@ -10,11 +10,12 @@ import numpy as np
 from discrete.mesh import RIGID_EXTENSION
 from discrete.restart import stored
 from discrete.state import State
+from discrete.touching import contact_histories, contact_terms, energetic
 from discrete.unknowns import SPIN_I, SPIN_J, X_J
 from dolfinrod.result import Formulation, Result, RodHistory, Statistics
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Snapshot", "evenly", "histories", "recorded"]
+__all__ = ["Snapshot", "evenly", "halved", "histories", "recorded"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +43,7 @@ class Snapshot:
         v: Velocities of the nodes, shape (n_nodes, 3); None in statics.
         ω: Angular velocities in global axes, shape (n_nodes, 3); None in statics.
         elastic: The end forces without those of damping; None where there is none.
+        touching: What the nodes feel of the contacts, as `Contacts.record` gives it; None where there are none.
     """
 
     t: float
@@ -53,11 +55,19 @@ class Snapshot:
     v: Array | None = None
     ω: Array | None = None
     elastic: Array | None = None
+    touching: Array | None = None
 
 
 def evenly(line: Array) -> Array:
     """Halves of forces on elements, shape (n, 2, 3)."""
     return np.repeat(0.5 * line[:, None], 2, axis=1)
+
+
+def halved(nodal: Array, mesh: Mesh) -> Array:
+    """Halves of forces on nodes, shape (n_nodes, 3), as much to each element there as it is long, shape (n, 2, 3)."""
+    node_i, half = mesh.elements.node_i, 0.5 * mesh.elements.l[:, None]
+    per_length = nodal / mesh.share[:, None]
+    return np.stack([half * per_length[node_i], half * per_length[node_i + 1]], axis=1)
 
 
 def recorded(
@@ -66,6 +76,7 @@ def recorded(
     path: Path[State] | Path[Carried],
     held: Sequence[str],
     seconds: tuple[float, float],
+    memory: Mapping[str, Array],
     *,
     converged: bool,
 ) -> Result:
@@ -77,6 +88,7 @@ def recorded(
         path: What was found.
         held: Neutral motions that were held, in words.
         seconds: Spent on setting up and on solving [s].
+        memory: What its contacts remember of its last state.
         converged: Whether the end was reached.
 
     Returns:
@@ -94,7 +106,8 @@ def recorded(
         energy={"strain": np.array([kept.energy for kept in path.kept]) * cut.units.moment},
         statistics=Statistics(dofs, len(path.log), path.iterations, path.iterations, 0.0, *seconds),
         formulation=formulation,
-        state=stored(path.state, cut) if isinstance(path.state, State) else {},
+        state=stored(path.state, cut) | dict(memory) if isinstance(path.state, State) else {},
+        contacts=contact_histories(scene, cut, [kept.touching for kept in path.kept if kept.touching is not None]),
     )
 
 
@@ -106,7 +119,9 @@ def _formulation(scene: Scene, cut: Mesh, held: Sequence[str], *, with_force: bo
     notes = ["no shear: GA ignored, as in the paper"]
     if any("extension" in rod.section.rigid for rod in scene.rods):
         notes.append(f"rigid extension: EA = {RIGID_EXTENSION:.0e}·EI/L²")
-    terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads))
+    terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads), *contact_terms(scene))
+    if not energetic(scene):
+        notes.append("stability not judged: friction, and AugmentedLagrangian, have no energy that would tell")
     return Formulation("discrete", "spatial", unknowns, terms, (*notes, *held))
 
 

@@ -93,24 +93,26 @@ class Session:
 
     def accept(self, outcome: Outcome, t: float) -> None:
         """Go to an equilibrium."""
+        self.equilibrium.accept(outcome.state, t)
         kept = self.equilibrium.snapshot(outcome.state, t)
         energy = kept.energy * self.equilibrium.mesh.units.moment
         verdict = self.judged(outcome)
         row = StepLog(t, outcome.iterations, 0, outcome.residual, energy, verdict.stable, verdict.counted)
         self._path.state = self.state = outcome.state
         self._path.accept(kept, row, None, self.scene.motion.t_end)
-        self.t, self.tangent = t, self.equilibrium.tangent(outcome.state, self.equilibrium.loads.level(t))
+        self.t, self.tangent = t, self.equilibrium.tangent(outcome.state, self.equilibrium.loads.level(t), t)
 
     def release(self, mass: Masses) -> None:
         """Let neutral motions go in which something with inertia moves."""
         M = at_nodes(mass.elements(self.state.R, self.tangent), self.tangent)
         self._phase.release(self.state, self.tangent, M)
-        self.tangent = self.equilibrium.tangent(self.state, self.equilibrium.loads.level(self.t))
+        self.tangent = self.equilibrium.tangent(self.state, self.equilibrium.loads.level(self.t), self.t)
 
     def result(self, *, converged: bool = True) -> Result:
         """The record of the way to it."""
         seconds = (0.0, time.perf_counter() - self._started)
-        return recorded(self.scene, self.equilibrium.mesh, self._path, self._phase.notes, seconds, converged=converged)
+        about = self._phase.notes, seconds, self.equilibrium.memory()
+        return recorded(self.scene, self.equilibrium.mesh, self._path, *about, converged=converged)
 
     def failed(self, failure: StepFailed) -> NotConverged:
         """The failure as a user sees it."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
+from discrete.contact import contacts_of
 from discrete.dynamics import moved
 from discrete.equilibrium import Equilibrium
 from discrete.failure import advice
@@ -32,11 +33,16 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Sequence
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from discrete.increments import Carried
     from discrete.mesh import Mesh
     from discrete.statics import Progress
     from dolfinrod.result import StepLog
     from dolfinrod.scene import Scene
+
+    Array = NDArray[np.float64]
 
 __all__ = ["beginning", "solve"]
 
@@ -112,12 +118,14 @@ class _Run:
         path: Its first state.
         follow: Lets the path grow to the end of the pseudo-time.
         notes: What a user should know of the last state.
+        memory: What its contacts remember of it.
     """
 
     mesh: Mesh
     path: Path[State] | Path[Carried]
     follow: Callable[[Progress | None], None]
     notes: Callable[[], tuple[str, ...]]
+    memory: Callable[[], dict[str, Array]] = dict
 
 
 def _prepare(
@@ -134,11 +142,11 @@ def _prepare(
         phase, path = _set_up(scene, cut, axial, frame, start)
         kept = None if file is None else file.read()
         if kept is not None:
-            resume_path(path, kept)
+            resume_path(path, kept, phase.equilibrium)
         behind = path.log or (start.log if start is not None else ())
         earlier = behind[-1].stable if behind else True
         walk = Walk(phase, Judge(scene, cut), scene, path, path.kept[-1].t, stable=earlier)
-        return _Run(cut, path, walk.follow, lambda: phase.notes)
+        return _Run(cut, path, walk.follow, lambda: phase.notes, phase.equilibrium.memory)
     increments = Increments(cut, Loads(scene, cut), Supports(scene, cut), node_frame=frame == "node_i")
     carried = Path(increments.begin())
     carried.kept.append(increments.snapshot(carried.state, 0.0))
@@ -166,7 +174,8 @@ def _set_up(
     scene: Scene, cut: Mesh, axial: str, frame: str, start: Result | None
 ) -> tuple[PhaseCondition, Path[State]]:
     """Solver with equilibrium iterations, and its first state."""
-    method = Equilibrium(cut, law(cut.elements, axial, frame), Loads(scene, cut), Supports(scene, cut))
+    parts = Loads(scene, cut), Supports(scene, cut), contacts_of(scene, cut)
+    method = Equilibrium(cut, law(cut.elements, axial, frame), *parts)
     return PhaseCondition(method), _begin(method, scene, start)
 
 
@@ -180,7 +189,7 @@ def _followed(scene: Scene, run: _Run, begun: float, progress: Progress | None, 
 
     def stepped(row: StepLog, t_end: float) -> None:
         if file is not None:
-            file.now_and_then(row.t, lambda: path_of(path))
+            file.now_and_then(row.t, lambda: path_of(path, run.memory()))
         if progress is not None:
             progress(row, t_end)
 
@@ -191,9 +200,9 @@ def _followed(scene: Scene, run: _Run, begun: float, progress: Progress | None, 
     except KeyboardInterrupt:
         failure = StepFailed(t=path.kept[-1].t, step=0.0, reason=INTERRUPTED)
     if file is not None:
-        file.write(path.kept[-1].t, lambda: path_of(path))
+        file.write(path.kept[-1].t, lambda: path_of(path, run.memory()))
     seconds = (started - begun, time.perf_counter() - started)
-    result = recorded(scene, run.mesh, path, run.notes(), seconds, converged=failure is None)
+    result = recorded(scene, run.mesh, path, run.notes(), seconds, run.memory(), converged=failure is None)
     if failure is not None:
         words = advice(scene, failure, path.log, file)
         raise NotConverged(
@@ -211,6 +220,7 @@ def _begin(method: Equilibrium, scene: Scene, start: Result | None) -> Path[Stat
             state.R[section.node] = section.frame(state.factors)
         if start.scene == scene and start.t[-1] < scene.motion.t_end:
             t = float(start.t[-1])
+    method.place(state, t, {} if start is None or t == 0.0 else start.state)
     path = Path(state)
     path.kept.append(method.snapshot(state, t))
     return path

@@ -24,6 +24,7 @@ from discrete.inertia import blocks, negative_directions
 from discrete.krylov import ACCURATE, REAL, leading
 from discrete.mass import at_nodes, densities, masses, uniform
 from discrete.motions import cost_nothing
+from discrete.touching import energetic
 from discrete.unknowns import N_NODE, X
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ class Verdict:
     """What is known of the stability of a state.
 
     Args:
-        stable: None where the tangent is singular to round-off.
+        stable: None where the tangent is singular to round-off, or does not tell.
         directions: Number of directions in which it gives way without oscillating, up to `SOUGHT` where the tangent
             is not symmetric; None where it could not be counted.
         conservative: Whether the tangent is symmetric.
@@ -91,6 +92,7 @@ class Judge:
     def __init__(self, scene: Scene, mesh: Mesh) -> None:
         sections = [rod.section for rod in scene.rods]
         heavy = all(section.rhoA is not None for section in sections)
+        self._judges = energetic(scene)
         self._masses = masses(mesh, *densities(sections)) if heavy else uniform(mesh)
 
     def verdict(self, tangent: Tangent, R: Array) -> Verdict:
@@ -103,6 +105,8 @@ class Judge:
         Returns:
             What could be said.
         """
+        if not self._judges:
+            return Verdict(None, None, False)
         symmetric = blocks(tangent)
         conservative = symmetric.asymmetry <= SYMMETRIC
         negative = negative_directions(symmetric)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.branches import Branches
+from discrete.grip import DEEP
 from discrete.predictor import Memory
 from discrete.statics import StepFailed, corners, targets
 from discrete.watch import Watch
@@ -90,6 +91,8 @@ class Walk:
                     continue
                 outcome, verdict = self._pushed(outcome, verdict, t_next)
             if verdict is None:
+                if outcome.reason == DEEP:
+                    raise self._failed(trial, outcome.reason, interval)
                 cuts, self._step = cuts + 1, trial / 2.0
                 if self._step <= interval / 2**MOST_CUTS:
                     raise self._failed(trial, outcome.reason, interval)
@@ -152,6 +155,7 @@ class Walk:
         equilibrium, path = self._phase.equilibrium, self._path
         path.state, self._stable = outcome.state, verdict.stable
         self._memory.add(t, outcome.state)
+        equilibrium.accept(outcome.state, t)
         kept = equilibrium.snapshot(outcome.state, t)
         energy = kept.energy * equilibrium.mesh.units.moment
         row = StepLog(t, outcome.iterations, cuts, outcome.residual, energy, verdict.stable, verdict.counted)

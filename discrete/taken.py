@@ -1,4 +1,4 @@
-"""What comes of a step in time."""
+"""What acts in a step in time while it is iterated on, and what comes of it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,38 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Taken"]
+__all__ = ["Balance", "Taken"]
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """Forces in a configuration, names as in `Taken`.
+
+    Args:
+        x: Positions, shape (3, n_nodes).
+        R: Section frames, shape (3, 3, n_nodes).
+        e: Chords, shape (n, 3).
+        E: Triads attached to their ends, shape (n, 2, 3, 3).
+        force: Shape (n, 13).
+        energy: Of each element, shape (n,).
+        internal: Shape (7, n_nodes).
+        drag: Shape (n_nodes, 3).
+        pressed: What surfaces do, shape (7, n_nodes); None where there are none.
+        moment: That of inertia, shape (n_nodes, 3).
+        missing: Shape (7, n_nodes).
+    """
+
+    x: Array
+    R: Array
+    e: Array
+    E: Array
+    force: Array
+    energy: Array
+    internal: Array
+    drag: Array
+    pressed: Array | None
+    moment: Array
+    missing: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +62,9 @@ class Taken:
         level: Loads at its end.
         acting: The same at the nodes, shape (n_nodes, 7).
         drag: Forces of the air, shape (n_nodes, 3).
-        missing: Loads, drag and inertia minus internal forces: what supports answer with a minus, shape (n_nodes, 7).
+        missing: Loads, drag, surfaces and inertia minus internal forces: what supports answer with a minus, shape
+            (n_nodes, 7).
+        pressed: Forces and moments of surfaces, shape (n_nodes, 7); None where there are none.
     """
 
     state: Moving
@@ -44,3 +77,4 @@ class Taken:
     acting: Array
     drag: Array
     missing: Array
+    pressed: Array | None

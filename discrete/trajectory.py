@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from discrete.mesh import RIGID_EXTENSION
-from discrete.record import Snapshot, evenly, histories
+from discrete.record import Snapshot, evenly, halved, histories
+from discrete.touching import contact_histories, contact_terms
+from discrete.unknowns import X
 from dolfinrod.result import Formulation, Result, Statistics, StepLog
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from dolfinrod.scene import Scene
 
     Array = NDArray[np.float64]
+    Unstored = tuple[Moving, Taken, Array | None]
 
 __all__ = ["Entry", "Trajectory", "formulation"]
 
@@ -36,13 +39,15 @@ class Entry:
         stored: Number of states stored.
         steps: Number of steps.
         now: Ledger, in units of the model.
-        last: The last step where its end is not stored, with the state before; None where it is.
+        last: The last step where its end is not stored, with the state before and what surfaces did; None where it is.
+        memory: What surfaces remember.
     """
 
     stored: int
     steps: int
     now: Mapping[str, float]
-    last: tuple[Moving, Taken] | Snapshot | None = None
+    last: Unstored | Snapshot | None = None
+    memory: Mapping[str, Array] = field(default_factory=dict)
 
 
 class Trajectory:
@@ -73,18 +78,23 @@ class Trajectory:
         force: Array,
     ) -> None:
         self._scene, self._method, self._laws, self._ledger = scene, method, laws, ledger
-        self._unstored: tuple[Moving, Taken] | Snapshot | None = None
+        self._unstored: Unstored | Snapshot | None = None
         self.log: list[StepLog] = []
         self.kept: list[Snapshot] = []
         self.books: list[dict[str, float]] = []
         self.earlier = 0, 0, 0.0
-        self._share = _shares(method.mesh)
-        self._store(self._snapshot(start, force, evenly(method.loads.level(start.t).line)))
+        halves, touching = evenly(method.loads.level(start.t).line), None
+        if method.contacts is not None:
+            touching = method.contacts.record()
+            halves += halved(method.contacts.force(start.x, start.R)[:, X], method.mesh)
+        self._store(self._snapshot(start, force, halves, touching))
 
     @property
     def entry(self) -> Entry:
         """How far it has come."""
-        return Entry(len(self.kept), len(self.log), dict(self._ledger.now), self._unstored)
+        contacts = self._method.contacts
+        memory = {} if contacts is None else contacts.memory()
+        return Entry(len(self.kept), len(self.log), dict(self._ledger.now), self._unstored, memory)
 
     @property
     def work(self) -> tuple[int, int, float]:
@@ -105,10 +115,14 @@ class Trajectory:
             How far it has come.
         """
         strain, damped = self._laws.accept(taken, taken.state.t - before.t)
-        self._ledger.add(before, taken, strain, damped)
+        contacts, state, booked, touching = self._method.contacts, taken.state, None, None
+        if contacts is not None:
+            booked = contacts.accept(state.x, state.R, state.t)
+            touching = contacts.record()
+        self._ledger.add(before, taken, strain, damped, booked)
         energy = strain * self._method.mesh.units.moment
         self.log.append(StepLog(taken.state.t, taken.iterations, cuts, taken.residual, energy))
-        self._unstored = before, taken
+        self._unstored = before, taken, touching
         if stored:
             self.finish()
         return self.entry
@@ -118,19 +132,20 @@ class Trajectory:
         del self.kept[entry.stored :], self.books[entry.stored :], self.log[entry.steps :]
         self._ledger.now, self._unstored = dict(entry.now), entry.last
         self._laws.begin(state)
+        if self._method.contacts is not None:
+            self._method.contacts.recall(entry.memory, state.x, state.R, state.t)
 
     def last(self) -> Snapshot | None:
         """The last state where it is not stored; None where it is."""
         if not isinstance(self._unstored, tuple):
             return self._unstored
-        before, taken = self._unstored
+        before, taken, touching = self._unstored
         state, dt = taken.state, taken.state.t - before.t
         nodal = taken.drag - self._method.inertia.force(state.v - before.v, dt)
-        node_i = self._method.mesh.elements.node_i
-        halves = evenly(taken.level.line)
-        halves[:, 0] += self._share[:, :1] * nodal[node_i]
-        halves[:, 1] += self._share[:, 1:] * nodal[node_i + 1]
-        return self._snapshot(state, taken.force, halves)
+        if taken.pressed is not None:
+            nodal += taken.pressed[:, X]
+        halves = evenly(taken.level.line) + halved(nodal, self._method.mesh)
+        return self._snapshot(state, taken.force, halves, touching)
 
     def finish(self) -> None:
         """Store the last state unless it is already."""
@@ -165,11 +180,15 @@ class Trajectory:
             statistics=statistics,
             formulation=shape,
             state=state,
+            contacts=contact_histories(
+                self._scene, mesh, [kept.touching for kept in self.kept if kept.touching is not None]
+            ),
         )
 
-    def _snapshot(self, state: Moving, force: Array, halves: Array) -> Snapshot:
+    def _snapshot(self, state: Moving, force: Array, halves: Array, touching: Array | None) -> Snapshot:
+        at, energy = (state.t, state.x, state.R), self._ledger.now["strain"]
         elastic = self._laws.elastic_force(state)
-        return Snapshot(state.t, state.x, state.R, force, halves, self._ledger.now["strain"], state.v, state.ω, elastic)
+        return Snapshot(*at, force, halves, energy, state.v, state.ω, elastic, touching)
 
     def _store(self, kept: Snapshot) -> None:
         unit = self._method.mesh.units.moment
@@ -186,7 +205,8 @@ def formulation(scene: Scene, cut: Mesh, notes: tuple[str, ...]) -> Formulation:
         notes: On the options chosen.
     """
     unknowns = {"x": 3 * len(cut.x), "rotation": 3 * len(cut.x), "F_n": len(cut.elements.l)}
-    terms = ["Elasticity", "Inertia", *dict.fromkeys(type(load).__name__ for load in scene.loads)]
+    loads = dict.fromkeys(type(load).__name__ for load in scene.loads)
+    terms = ["Elasticity", "Inertia", *loads, *contact_terms(scene)]
     if scene.air is not None:
         terms.append("Drag")
     if any(rod.section.damping for rod in scene.rods):
@@ -197,12 +217,3 @@ def formulation(scene: Scene, cut: Mesh, notes: tuple[str, ...]) -> Formulation:
     if any(rod.section.rhoI is None or rod.section.rhoI[0] == 0.0 for rod in scene.rods):
         known.append("no inertia about the axis given: a thousandth of that of a node across it stands in")
     return Formulation("discrete", "spatial", unknowns, tuple(terms), (*known, *notes))
-
-
-def _shares(mesh: Mesh) -> Array:
-    """Part of what acts at a node that falls on each element there, at either end, shape (n, 2)."""
-    node_i, l = mesh.elements.node_i, mesh.elements.l
-    total = np.zeros(len(mesh.x))
-    total[node_i] = l
-    total[node_i + 1] += l
-    return l[:, None] / np.stack([total[node_i], total[node_i + 1]], axis=1)

@@ -1,0 +1,247 @@
+"""Contact with rigid surfaces at the nodes, Eq. 27 and 28: force per length times half of the elements at a node.
+
+What a surface does to a point is the scene's, `dolfinrod.scene.Touch`, in SI units; here it is made forces, moments and
+stiffness of nodes in units of the model, for all contacts of a scene together.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from discrete.rotation import log, tangents
+from discrete.touched import Booking, Touched
+from discrete.unknowns import N_NODE, SPIN, X
+from dolfinrod.scene import Touch
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from discrete.mesh import Mesh
+    from dolfinrod.scene import Contact, Scene
+    from dolfinrod.scene.reply import Reply
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Contacts", "contacts_of"]
+
+
+@dataclass(eq=False)
+class _Pair:
+    """The nodes that one contact concerns.
+
+    Args:
+        contact: The surface and its laws.
+        mine: These nodes.
+        share: Length for which each stands, shape (n,) [m].
+        touch: What the surface does to them.
+    """
+
+    contact: Contact
+    mine: slice
+    share: Array
+    touch: Touch
+
+    def __post_init__(self) -> None:
+        self.rubs = self.touch.turns
+        self.turn = np.zeros((len(self.share), 3))
+        self.reply: Reply
+
+    def respond(self, x: Array, turns: Array) -> Reply:
+        """What acts at positions in SI units, rotation vectors over the step being known."""
+        if self.rubs:
+            self.turn = turns[self.mine]
+        self.reply = self.touch.respond(x[self.mine], self.turn)
+        return self.reply
+
+
+class Contacts:
+    """All contacts of a scene, and what they remember of the last state that counts.
+
+    Args:
+        scene: The problem.
+        mesh: Its nodes.
+    """
+
+    def __init__(self, scene: Scene, mesh: Mesh) -> None:
+        self._mesh, self._units = mesh, mesh.units
+        share = mesh.share * mesh.units.length
+        radius = np.repeat([rod.section.radius or 0.0 for rod in scene.rods], np.diff(mesh.first))
+        self._pairs: list[_Pair] = []
+        self._seen: tuple[Array, Array] | None = None
+        self._force: Array
+        for contact in scene.contacts:
+            a, b = (0, len(mesh.s)) if contact.rod is None else (contact.rod, contact.rod + 1)
+            mine = slice(int(mesh.first[a]), int(mesh.first[b]))
+            touch = Touch(contact, radius[mine], scene.motion.t_end)
+            self._pairs.append(_Pair(contact, mine, share[mine], touch))
+        self._rubs = any(pair.rubs for pair in self._pairs)
+
+    def recall(self, arrays: Mapping[str, Array], x: Array, R: Array, t: float) -> None:
+        """Begin at, or go back to, a state, with what `memory` told of it among `arrays`; nothing where it did not."""
+        for k, pair in enumerate(self._pairs):
+            pair.touch.place(self._in_space(x)[pair.mine], t)
+            own = {name: f"contact{k}_{name}" for name in pair.touch.memory()}
+            if all(key in arrays for key in own.values()):
+                pair.touch.recall({name: arrays[key] for name, key in own.items()}, t)
+        self._R_0 = R
+        self.begin(t)
+        self.force(x, R)
+        self._pattern = self.pattern
+
+    def memory(self) -> dict[str, Array]:
+        """What is remembered of the last state that counts, in SI units, by the number of the contact and a name."""
+        pairs = enumerate(self._pairs)
+        return {f"contact{k}_{name}": one for k, pair in pairs for name, one in pair.touch.memory().items()}
+
+    def record(self) -> Array:
+        """What all points of all contacts feel where `force` was asked for last, one after the other.
+
+        Returns:
+            Gap, pressure, normal, traction, slip so far and state of each, SI units, shape (n_points, 10).
+        """
+        rows = []
+        for pair in self._pairs:
+            reply, slip = pair.reply, pair.touch.memory()["slip"]
+            rows.append(np.column_stack([reply.gap, reply.pressure, reply.normal, reply.traction, slip, reply.state]))
+        return np.concatenate(rows)
+
+    def _answered(self, x: Array, R: Array) -> bool:
+        """Whether `force` was asked for last there: an iteration that stays does not count as one that goes on."""
+        return self._seen is not None and np.array_equal(self._seen[0], x) and np.array_equal(self._seen[1], R)
+
+    @property
+    def stiffness(self) -> float:
+        """That of the stiffest surface, in EI/L⁴."""
+        stiffest = max(pair.contact.law.eps_N for pair in self._pairs)
+        return float(stiffest * self._units.length**4 / self._units.stiffness)
+
+    def soften(self, by: float) -> None:
+        """Let all surfaces be softer by a factor, until the next step begins."""
+        self._seen = None
+        for pair in self._pairs:
+            pair.touch.soften(by)
+
+    def begin(self, t: float) -> None:
+        """A step from the last state that counts leads to time t."""
+        for pair in self._pairs:
+            pair.touch.begin(t)
+        self._goal, self._seen = t, None
+
+    def force(self, x: Array, R: Array) -> Array:
+        """Forces and moments where the step has led.
+
+        Args:
+            x: Positions, shape (n_nodes, 3).
+            R: Section frames, shape (n_nodes, 3, 3).
+
+        Returns:
+            The place of F_n empty, shape (n_nodes, 7).
+        """
+        if self._answered(x, R):
+            return self._force.copy()
+        total, place = np.zeros((len(x), N_NODE)), self._in_space(x)
+        turns = log(R @ np.swapaxes(self._R_0, 1, 2)) if self._rubs else total[:, X]
+        for pair in self._pairs:
+            reply = pair.respond(place, turns)
+            total[pair.mine, X] += (pair.share / self._units.force)[:, None] * reply.force
+            if pair.rubs:
+                total[pair.mine, SPIN] += (pair.share / self._units.moment)[:, None] * reply.moment
+        self._seen, self._force = (x, R), total
+        return total.copy()
+
+    def at(self, x: Array, R: Array, t: float | None) -> Array:
+        """`force` with the walls where they are at time t; None: at that of the last `begin`."""
+        if t is not None:
+            self.begin(t)
+        return self.force(x, R)
+
+    def clearance(self, rod: int) -> float:
+        """Least distance of a rod from where a surface acts on it, in units of the model; infinite without one.
+
+        That is where `force` was asked for last.
+        """
+        first, clear = self._mesh.first, np.inf
+        for pair in self._pairs:
+            a, b = (max(0, int(node) - pair.mine.start) for node in first[rod : rod + 2])
+            clear = min(clear, float((pair.reply.gap - pair.contact.law.g_0)[a:b].min(initial=np.inf)))
+        return clear / self._units.length
+
+    def reach(self, x: Array) -> float:
+        """Largest coordinate of a node, as far as round-off of its gap goes, in units of the model."""
+        return float(np.abs(x).max() + np.abs(self._mesh.origin).max() / self._units.length)
+
+    def blocks(self) -> Touched:
+        """Resistance where `force` was asked for last."""
+        n, L = len(self._mesh.x), self._units.length
+        total, touched = np.zeros((n, 6, 6)), np.zeros(n, dtype=bool)
+        for pair in self._pairs:
+            slope = pair.touch.gradient()
+            nodes, share = slope.points + pair.mine.start, pair.share[slope.points, None, None]
+            touched[nodes] = True
+            total[nodes, :3, :3] -= share * (L / self._units.force) * slope.f_x
+            if pair.rubs:
+                Θ, _ = tangents(pair.turn[slope.points], np.zeros((len(nodes), 3)))
+                total[nodes, :3, 3:] -= share / self._units.force * (slope.f_turn @ Θ)
+                total[nodes, 3:, :3] -= share * (L / self._units.moment) * slope.m_x
+                total[nodes, 3:, 3:] -= share / self._units.moment * (slope.m_turn @ Θ)
+        nodes = np.flatnonzero(touched)
+        return Touched(nodes, total[nodes])
+
+    @property
+    def pattern(self) -> bytes:
+        """Which nodes touch, and which of these stick."""
+        return b"".join(pair.reply.state.tobytes() for pair in self._pairs)
+
+    @property
+    def met(self) -> bool:
+        """Whether any node touched in the last state that counts."""
+        return any(self._pattern)
+
+    @property
+    def changed(self) -> bool:
+        """Whether that is another one than in the last state that counts."""
+        return self.pattern != self._pattern
+
+    @property
+    def rubbing(self) -> bool:
+        """Whether any node touches that friction turns."""
+        return any(pair.rubs and bool(pair.reply.state.any()) for pair in self._pairs)
+
+    def renew(self) -> bool:
+        """Renew the multipliers; whether all penetrations are within their tolerances already."""
+        done = [pair.touch.renew() for pair in self._pairs]
+        if not all(done):
+            self._seen = None
+        return all(done)
+
+    def stored(self) -> float:
+        """Energy in penetrations and anchors in the last state that counts, in units of the model."""
+        return sum(float(pair.share @ pair.touch.stored()) for pair in self._pairs) / self._units.moment
+
+    def accept(self, x: Array, R: Array, t: float) -> Booking:
+        """The step to this state counts."""
+        if t != self._goal or not self._answered(x, R):
+            self.begin(t)
+        self.force(x, R)
+        stored = rubbed = pushed = 0.0
+        for pair in self._pairs:
+            booked = pair.touch.accept()
+            stored += float(pair.share @ booked.stored)
+            rubbed += float(pair.share @ booked.rubbed)
+            pushed += float(pair.share @ booked.pushed)
+        self._R_0, self._pattern = R, self.pattern
+        unit = self._units.moment
+        return Booking(stored / unit, rubbed / unit, pushed / unit)
+
+    def _in_space(self, x: Array) -> Array:
+        return x * self._units.length + self._mesh.origin
+
+
+def contacts_of(scene: Scene, mesh: Mesh) -> Contacts | None:
+    """The contacts of a scene; None where it has none."""
+    return Contacts(scene, mesh) if scene.contacts else None

@@ -1,0 +1,128 @@
+"""Equilibrium of rods against surfaces: straight away, by way of softer walls, and with renewed multipliers.
+
+Newton's method is exact as long as the same nodes touch and stick. What increments did not foretell, above all that
+other nodes do, is measured where they have become small; and where an iteration comes back to a set of nodes that it
+has left before, it has begun to go round in circles.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import ceil, log
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from discrete.contact import Contacts
+    from discrete.state import Outcome, State
+    from discrete.touched import Touched
+
+    Array = NDArray[np.float64]
+    Find = Callable[[State, int, float], Outcome]
+
+__all__ = ["DEEP", "HALF_TURN", "MOST_RENEWALS", "ROLLED", "Grip", "gripped"]
+
+# Iterations after which walls are approached by way of softer ones: what touches then changes little by little.
+DIRECT = 12
+# Stiffness of the softest in EI/L⁴, against which a rod bends over a tenth of its length, and of each over the last.
+SOFTEST, STIFFER = 1e5, 100.0
+# Increments in L and radians at which a softer wall has told enough.
+ROUGH = 0.1
+# Renewals of multipliers after which they have failed.
+MOST_RENEWALS = 50
+DEEP = f"rods were deeper in a surface than its tolerance after {MOST_RENEWALS} renewals: its eps_N is too small"
+# Turn in one step beyond which it is not told from the other way round [rad].
+HALF_TURN = 3.0
+ROLLED = "a rod that rubs on a surface turned by about half a turn in one step, more than friction can tell"
+# How often one set of touching and sticking nodes may be come back to.
+MOST_RETURNS = 3
+# Units in the last place of a position, of what is added up to find it.
+ROUND_OFF = 8.0 * float(np.finfo(float).eps)
+
+
+class Grip:
+    """Surfaces during one iteration.
+
+    Args:
+        contacts: The contacts of the scene, about to take a step.
+
+    Attributes:
+        touched: Resistance where `press` was asked for last.
+        circling: Whether the iteration goes round in circles.
+    """
+
+    touched: Touched
+
+    def __init__(self, contacts: Contacts) -> None:
+        self._contacts, self._met, self._last = contacts, dict[bytes, int](), b""
+        self.circling = False
+
+    def press(self, state: State) -> Array:
+        """Forces and moments with which the next increments are found, shape (n_nodes, 7)."""
+        self._force, self._reach = self._contacts.force(state.x, state.R), self._contacts.reach(state.x)
+        self.touched, pattern = self._contacts.blocks(), self._contacts.pattern
+        if pattern != self._last:
+            self._met[pattern] = self._met.get(pattern, -1) + 1
+            self.circling = self._met[pattern] > MOST_RETURNS
+        self._last = pattern
+        return self._force
+
+    def surprise(self, d: Array, state: State) -> float:
+        """Largest difference of the forces in a state from what increments foretold, beyond round-off of positions."""
+        force, foretold = self._contacts.force(state.x, state.R), self._force + self.touched.change(d)
+        blurred = ROUND_OFF * self._reach * self.touched.stiffest
+        return max(0.0, float(np.abs(force - foretold).max()) - blurred)
+
+
+def gripped(contacts: Contacts, state: State, t: float, find: Find, most: int, fine: float) -> Outcome:
+    """Equilibrium against surfaces.
+
+    Args:
+        contacts: The contacts of the scene.
+        state: First guess.
+        t: Pseudo-time.
+        find: Newton's method from a state on: most iterations, and increments at which it is done.
+        most: Iterations allowed.
+        fine: Increments at which it is done.
+
+    Returns:
+        How it ended, all iterations counted.
+    """
+    contacts.begin(t)
+    found = _pressed(contacts, state, find, most, fine)
+    for _ in range(MOST_RENEWALS):
+        if not found.converged or contacts.renew():
+            break
+        found = _after(found, find(found.state, most, fine))
+    else:
+        return replace(found, converged=False, reason=DEEP)
+    if found.converged and found.turned > HALF_TURN and contacts.rubbing:
+        return replace(found, converged=False, reason=ROLLED)
+    return replace(found, strayed=found.strayed and not contacts.changed)
+
+
+def _pressed(contacts: Contacts, state: State, find: Find, most: int, fine: float) -> Outcome:
+    """Equilibrium with multipliers as they are."""
+    stages = max(0, ceil(log(max(contacts.stiffness / SOFTEST, 1.0), STIFFER)))
+    found = find(state, DIRECT if stages else most, fine)
+    if found.converged or not stages:
+        return found
+    for k in range(stages, 0, -1):
+        contacts.soften(STIFFER**k)
+        softer = find(state, most, ROUGH)
+        found = _after(found, softer)
+        if softer.converged:
+            state = softer.state
+    contacts.soften(1.0)
+    return _after(found, find(state, most, fine))
+
+
+def _after(before: Outcome, found: Outcome) -> Outcome:
+    """What was found, with what was spent before."""
+    iterations, turned = before.iterations + found.iterations, before.turned + found.turned
+    return replace(found, iterations=iterations, turned=turned, strayed=before.strayed or found.strayed)

@@ -1,0 +1,74 @@
+"""What surfaces answer at the nodes that touch them: resistance, and energies of a step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from discrete.unknowns import AXIAL, N_NODE, SPIN
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Indices = NDArray[np.int64]
+
+__all__ = ["Booking", "Touched"]
+
+
+@dataclass(frozen=True, eq=False)
+class Touched:
+    """Resistance of surfaces at the nodes that touch them.
+
+    Args:
+        nodes: Each once, shape (m,).
+        blocks: To displacement and spin, shape (m, 6, 6); unsymmetric where there is friction.
+    """
+
+    nodes: Indices
+    blocks: Array
+
+    @property
+    def stiffest(self) -> float:
+        """Largest of them all; a tiny number where nothing touches."""
+        return float(np.abs(self.blocks).max(initial=float(np.finfo(float).tiny)))
+
+    def enter(self, elements: Array, node_i: Indices, sign: float = 1.0) -> None:
+        """Add them to the tangents of elements, shape (n, 13, 13), that begin at nodes node_i: to one each."""
+        at = np.searchsorted(node_i, self.nodes).clip(0, len(node_i) - 1)
+        begins = node_i[at] == self.nodes
+        elements[at[begins], :AXIAL, :AXIAL] += sign * self.blocks[begins]
+        ends = np.searchsorted(node_i, self.nodes[~begins] - 1)
+        elements[ends, N_NODE:, N_NODE:] += sign * self.blocks[~begins]
+
+    def change(self, d: Array) -> Array:
+        """Change of forces and moments with increments of all nodes, shape (n_nodes, 7) both."""
+        change = np.zeros_like(d)
+        change[self.nodes, :AXIAL] = -np.matmul(self.blocks, d[self.nodes, :AXIAL, None])[:, :, 0]
+        return change
+
+    def in_axes(self, nodes: Indices, axes: Array) -> Touched:
+        """The same with the spins of some nodes in axes of their own, shapes (k,) and (k, 3, 3)."""
+        blocks = self.blocks.copy()
+        _, mine, theirs = np.intersect1d(self.nodes, nodes, assume_unique=True, return_indices=True)
+        B = axes[theirs]
+        blocks[mine, :, SPIN] = blocks[mine, :, SPIN] @ B
+        blocks[mine, SPIN] = np.swapaxes(B, 1, 2) @ blocks[mine, SPIN]
+        return Touched(self.nodes, blocks)
+
+
+@dataclass(frozen=True)
+class Booking:
+    """Energies of a step, in units of the model.
+
+    Args:
+        stored: What contact stores at its end.
+        rubbed: What friction took.
+        pushed: Work of moving walls on the rods.
+    """
+
+    stored: float = 0.0
+    rubbed: float = 0.0
+    pushed: float = 0.0
