@@ -12,6 +12,7 @@ from discrete.record import recorded
 from discrete.solver import beginning
 from discrete.stability import Judge
 from discrete.statics import StepFailed
+from discrete.touching import energetic
 from dolfinrod.result import NotConverged, Result, StepLog
 from dolfinrod.scene import SceneError, in_time
 from dolfinrod.scene.door import admit
@@ -57,6 +58,9 @@ class Session:
             if at.scene != scene:
                 raise SceneError("at must be a result of this scene, got one of another")
             elements = [len(rod.s) - 1 for rod in at.rods]
+        if not energetic(scene):
+            needed = "must not rub nor have multipliers here: such contact has a memory, and no tangent tells what is"
+            raise SceneError(f"{needed} critical", field="contacts")
         self.scene = scene = in_time(scene)
         self._phase, self._path = beginning(scene, elements, at)
         self.equilibrium = self._phase.equilibrium
