@@ -199,11 +199,6 @@ def test_wrong_options_are_refused_in_words(options, message):
         discrete.solve(scene, **options)
 
 
-def test_contact_is_refused():
-    with pytest.raises(SceneError, match="contacts must be empty"):
-        discrete.solve(Scene([Rod.straight(1.0, GENERAL)], [Clamp("start")], contacts=(object(),)))
-
-
 def test_model_does_not_depend_on_units():
     """A fibre of 20 µm and the same rod in units of L and EI: one shape."""
     fibre = Section.ramie()
