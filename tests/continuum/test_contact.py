@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 from mpi4py import MPI
 
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 
 import dolfinrod as dr
 from dolfinrod.continuum.discretization import Discretization
+from dolfinrod.continuum.newton import Newton
 from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.problem import Problem
@@ -256,3 +258,30 @@ def test_ranks_do_not_matter(elements, kinematics, law):
         a, b = (getattr(result.contacts[0].rods[0], name) for result in (together, alone))
         np.testing.assert_allclose(a, b, atol=1e-8)
     np.testing.assert_allclose(together.contacts[0].force, alone.contacts[0].force, atol=1e-5)
+
+
+@both_kinematics
+@pytest.mark.parametrize("friction", [None, dr.Coulomb(0.4)], ids=["smooth", "rough"])
+@pytest.mark.serial
+def test_newton_is_quadratic_where_contact_is_smooth(kinematics, friction, monkeypatch):
+    """Increments of the last solve, below 0.1 and above round-off: each is at most some squares of the one before."""
+    sizes: list[float] = []
+    limit = Newton._limit
+
+    def noting(self: Newton, *vectors: object) -> bool:
+        done = limit(self, *vectors)
+        sizes.append(self._size)
+        return done
+
+    monkeypatch.setattr(Newton, "_limit", noting)
+    rod = FLAT.straight(SECTION, start=(0.0, 0.05, 0.0))
+    pull = dr.PointForce((0.5, -6.0, 0.0), at="end")
+    contact = floor(FLAT, dr.SmoothPenalty(1e3, 2e-2), friction)
+    dr.solve(dr.Scene([rod], [dr.Clamp("start")], [pull], [contact]), elements=6, kinematics=kinematics)
+    last = len(sizes) - 1
+    while sizes[last - 1] > sizes[last]:
+        last -= 1
+    tail = [size for size in sizes[last:] if 1e-11 < size < 1e-1]
+    assert len(tail) >= 2
+    for before, after in pairwise(tail):
+        assert after <= 10.0 * before**2
