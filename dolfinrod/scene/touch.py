@@ -73,8 +73,10 @@ class Touch:
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
         unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
         self._afar = unloaded & (self._gap_0 > self._pressing.law.g_0)
-        self._t, self._dt = t, t - self._t_0
-        start, self._end, middle = (self._pose(s) for s in (self._t_0, t, self._t_0 + self._level * self._dt))
+        dt = t - self._t_0
+        # Where the rods were placed nothing moves yet.
+        self._t, self._rate = t, 1.0 / dt if dt > 0.0 else 0.0
+        start, self._end, middle = (self._pose(s) for s in (self._t_0, t, self._t_0 + self._level * dt))
         self._acting, self._start = middle, start
         motion = self.contact.surface.motion
         self._wall_turn = (
@@ -107,7 +109,7 @@ class Touch:
             state[on] = np.where(pressed.p != 0.0, np.where(step.rubbing.slides, SLIDES, STICKS), OPEN)
             traction[on] = t @ Q.T
             moment[on] = -pressed.radius[:, None] * cross(pressed.n, t) @ Q.T
-        elif isinstance(self._friction, CreepingCoulomb):
+        elif isinstance(self._friction, CreepingCoulomb) and len(on):
             v, speed = self._velocity(x[on])
             traction[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
         self.changed = not np.array_equal(state, self._state)
@@ -131,7 +133,7 @@ class Touch:
             p[on], p_X[on], closest.normal[on], self._level * closest.curvature[on], self._radius[on], expected[on]
         )
         share, none = np.ones(len(on)), np.zeros((len(on), 3))
-        if not isinstance(self._friction, Coulomb):
+        if not isinstance(self._friction, Coulomb) or not len(on):
             return Step(X, turned, gap, on, pressed, share, none, none, None)
         # What came from afar in this step has touched only over the last part of its way.
         far = self._afar[on]
@@ -141,11 +143,6 @@ class Touch:
         v = self._u[on] + share[:, None] * w
         rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on])
         return Step(X, turned, gap, on, pressed, share, w, v, rubbing)
-
-    @property
-    def _rate(self) -> float:
-        """1/Δt; where the rods were placed nothing moves yet."""
-        return 1.0 / self._dt if self._dt > 0.0 else 0.0
 
     def _velocity(self, x: Array) -> tuple[Array, Array]:
         """Velocity of the points that touch in space, and √(|v|² + v_0²)."""
@@ -158,6 +155,8 @@ class Touch:
         step, pressed = self._step, self._step.pressed
         f_x = pressed.gradient()
         none = np.zeros_like(f_x)
+        if not len(f_x):
+            return Gradient(step.on, none, none, none, none)
         if step.rubbing is not None:
             assert isinstance(self._friction, Coulomb)
             u_x, u_turn = slip_gradients(step, self._gap_0[step.on], self._pressing.law.g_0)
