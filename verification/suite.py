@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from verification.cases import CASES
 from verification.checks import Check, digit_checks, order_checks
+from verification.contact import ContactStudy
 from verification.crosscheck import CrossCheck, crosschecks
 from verification.drift import DriftStudy
 from verification.explicitlimit import ExplicitLimit
@@ -39,7 +40,7 @@ __all__ = ["Missed", "Report", "report", "work_off"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
 Moved = DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | TopStudy
-Missed = Trial | Moved | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow
+Missed = Trial | Moved | Cell | Check | ContactStudy | CrossCheck | ExplicitLimit | LawRow | MotionRow
 # Fields of the report that are the rows of a topic, as they come.
 AS_FOUND = {
     "one_step": "one step",
@@ -54,6 +55,7 @@ AS_FOUND = {
     "maps": "map",
     "motions": "hard motion",
     "tops": "rigid",
+    "touching": "contact",
 }
 
 
@@ -89,6 +91,7 @@ class Report:
         fibres: The paper's fibre in its own steps.
         paces: Milliseconds a step.
         tops: Rigid bodies by each rotation integrator.
+        touching: Rods on rigid surfaces on finer and finer levels.
         contenders: Other people's solvers and our models on one problem.
     """
 
@@ -120,6 +123,7 @@ class Report:
     paces: tuple[Pace, ...] = ()
     contenders: tuple[Contender, ...] = ()
     tops: tuple[TopStudy, ...] = ()
+    touching: tuple[ContactStudy, ...] = ()
 
     def compile_ms(self, model: str) -> float | None:
         """What a model spent on making or loading its forms when it was first used [ms]."""
@@ -139,7 +143,7 @@ class Report:
         for rows in (*kinds, self.hard, self.shares, self.largest, self.limits, self.maps, self.motions):
             missed += [row for row in rows if not row.holds]
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
-        missed += [row for row in moved if not row.holds]
+        missed += [row for row in (*moved, *self.touching) if not row.holds]
         missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
 

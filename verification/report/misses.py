@@ -6,6 +6,7 @@ from functools import singledispatch
 from typing import Any
 
 from verification.checks import Check
+from verification.contact import ContactStudy
 from verification.crosscheck import BAND, CrossCheck
 from verification.drift import KEPT, DriftStudy
 from verification.explicitlimit import ExplicitLimit
@@ -183,3 +184,15 @@ def _(row: TopStudy) -> str:
 def verdict(stable: bool | None) -> str:
     """In a word."""
     return "not judged" if stable is None else "stable" if stable else "unstable"
+
+
+@sentence.register
+def _(row: ContactStudy) -> str:
+    found = f"{row.title}: {row.model}, {row.label}"
+    for one in row.records:
+        if one.failure:
+            return f"{found}, no solution for {one.level} {row.unit}: {one.failure}"
+    if row.limit is not None and row.records[-1].error > row.limit:
+        at = f"{scientific(row.records[-1].error)} off for {row.records[-1].level} {row.unit}"
+        return f"{found}, {at}, at most {scientific(row.limit, 0)}"
+    return f"{found}, errors fall with order {power(row.order)}, at least {power(row.least)}"
