@@ -8,11 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 from verification.cases import CASES
 from verification.checks import Check, digit_checks, order_checks
+from verification.contactmaps import ContactCell
 from verification.crosscheck import CrossCheck, crosschecks
 from verification.drift import DriftStudy
 from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
+from verification.groovebench import GrooveSweep
+from verification.grooveprofile import SideBySide
 from verification.hard import HardRow, Share, shares
+from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
 from verification.laws import LawRow
 from verification.machine import Machine
@@ -39,7 +43,8 @@ __all__ = ["Missed", "Report", "report", "work_off"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
 Moved = DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | TopStudy
-Missed = Trial | Moved | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow
+Touched = ContactCell | ContactRow | GrooveSweep | SideBySide
+Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow
 # Fields of the report that are the rows of a topic, as they come.
 AS_FOUND = {
     "one_step": "one step",
@@ -54,6 +59,10 @@ AS_FOUND = {
     "maps": "map",
     "motions": "hard motion",
     "tops": "rigid",
+    "grooves": "groove",
+    "beside": "side by side",
+    "contact_maps": "contact map",
+    "hard_contacts": "hard contact",
 }
 
 
@@ -89,6 +98,10 @@ class Report:
         fibres: The paper's fibre in its own steps.
         paces: Milliseconds a step.
         tops: Rigid bodies by each rotation integrator.
+        grooves: The fibre in the groove over steps, elements and penalty.
+        beside: Both models on it, side by side.
+        contact_maps: Outcome over step, penalty and length of the elements.
+        hard_contacts: What contact stumbles over.
         contenders: Other people's solvers and our models on one problem.
     """
 
@@ -120,6 +133,10 @@ class Report:
     paces: tuple[Pace, ...] = ()
     contenders: tuple[Contender, ...] = ()
     tops: tuple[TopStudy, ...] = ()
+    grooves: tuple[GrooveSweep, ...] = ()
+    beside: tuple[SideBySide, ...] = ()
+    contact_maps: tuple[ContactCell, ...] = ()
+    hard_contacts: tuple[ContactRow, ...] = ()
 
     def compile_ms(self, model: str) -> float | None:
         """What a model spent on making or loading its forms when it was first used [ms]."""
@@ -140,6 +157,8 @@ class Report:
             missed += [row for row in rows if not row.holds]
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
         missed += [row for row in moved if not row.holds]
+        touched: tuple[Touched, ...] = (*self.grooves, *self.beside, *self.contact_maps, *self.hard_contacts)
+        missed += [row for row in touched if not row.holds]
         missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 from importlib import import_module
 
-from verification import eigencases, hardcases, motiontrials, stepping, toptrials
+from verification import contactwork, eigencases, hardcases, motiontrials, stepping, toptrials
 from verification.eigencase import Eigencase
 from verification.hard import hard, pairs
 from verification.hardcase import HardCase, Refined
@@ -33,6 +33,7 @@ def names() -> tuple[str, ...]:
         *stepping.names(),
         *motiontrials.names(),
         *toptrials.names(),
+        *contactwork.names(),
     )
 
 
@@ -71,6 +72,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from stepping.listing(asked)
     yield from motiontrials.listing(asked)
     yield from toptrials.listing(asked)
+    yield from contactwork.listing(asked)
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -97,6 +99,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from stepping.units(asked, quick=quick)
     yield from motiontrials.units(asked, quick=quick)
     yield from toptrials.units(asked, quick=quick)
+    yield from contactwork.units(asked, quick=quick)
 
 
 def _critical(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:
