@@ -47,8 +47,7 @@ class _Pair:
     touch: Touch
 
     def __post_init__(self) -> None:
-        self.rubs = self.touch.turns
-        self.turn = np.zeros((len(self.share), 3))
+        self.rubs, self.turn = self.touch.turns, np.zeros((len(self.share), 3))
         self.reply: Reply
 
     def respond(self, x: Array, turns: Array) -> Reply:
@@ -215,12 +214,16 @@ class Contacts:
     def renew(self) -> bool:
         """Renew the multipliers; whether all penetrations are within their tolerances already."""
         done = [pair.touch.renew() for pair in self._pairs]
-        if not all(done):
-            self._seen = None
+        self._seen = self._seen if all(done) else None
         return all(done)
 
+    @property
+    def pierced(self) -> bool:
+        """Whether the step has led a rod into or through a wall."""
+        return any(pair.touch.pierces() for pair in self._pairs)
+
     def stored(self) -> float:
-        """Energy in penetrations and anchors in the last state that counts, in units of the model."""
+        """Energy in penetrations and anchors in the last state that counts, in EI/L."""
         return sum(float(pair.share @ pair.touch.stored()) for pair in self._pairs) / self._units.moment
 
     def accept(self, x: Array, R: Array, t: float) -> Booking:

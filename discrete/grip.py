@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.scene.piercing import PIERCED
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -101,6 +103,8 @@ def gripped(contacts: Contacts, state: State, t: float, find: Find, most: int, f
         found = _after(found, find(found.state, most, fine))
     else:
         return replace(found, converged=False, reason=DEEP)
+    if found.converged and contacts.pierced:
+        return replace(found, converged=False, reason=PIERCED)
     if found.converged and found.turned > HALF_TURN and contacts.rubbing:
         return replace(found, converged=False, reason=ROLLED)
     return replace(found, strayed=found.strayed and not contacts.changed)

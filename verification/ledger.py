@@ -22,10 +22,14 @@ import numpy as np
 
 from verification.checks import Check
 from verification.contact import ContactRecord, ContactStudy
+from verification.contactmaps import ContactCell
 from verification.drift import DriftStudy
 from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
+from verification.groovebench import GroovePoint, GrooveSweep
+from verification.grooveprofile import GrooveProfile, SideBySide
 from verification.hard import HardRow
+from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
 from verification.laws import LawRow
 from verification.machine import Machine
@@ -46,9 +50,22 @@ from verification.workprecision import Record, Study, Timing
 __all__ = ["Ledger", "Unit", "source_hash"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
-Moved = ContactStudy | DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | TopStudy
-Row = Trial | Moved | Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study
-PARTS = (Attempt, ContactRecord, Measured, MotionRecord, Order, Peer, Record, Taker, Timing)
+Moved = DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | TopStudy
+Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
+Row = Trial | Moved | Touched | Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study
+PARTS = (
+    Attempt,
+    ContactRecord,
+    GroovePoint,
+    GrooveProfile,
+    Measured,
+    MotionRecord,
+    Order,
+    Peer,
+    Record,
+    Taker,
+    Timing,
+)
 RECORDS: dict[str, Any] = {kind.__name__: kind for kind in (*get_args(Row), *PARTS)}
 PACKAGES = ("dolfinrod", "discrete", "verification")
 NAME = re.compile("[0-9a-f]{24}")
@@ -63,7 +80,8 @@ class Unit:
     Args:
         topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
             "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
-            "frequency", "drift", "pace", "paper fibre", "rigid" or "contact".
+            "frequency", "drift", "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map" or
+            "hard contact".
         words: What is solved, for people.
         parameters: What sets it apart from others of its topic; strings and numbers.
         work: Solves it; returns a row, or rows, for the report.

@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, Any
 from verification.cases import CASES
 from verification.checks import Check, digit_checks, order_checks
 from verification.contact import ContactStudy
+from verification.contactmaps import ContactCell
 from verification.crosscheck import CrossCheck, crosschecks
 from verification.drift import DriftStudy
 from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
+from verification.groovebench import GrooveSweep
+from verification.grooveprofile import SideBySide
 from verification.hard import HardRow, Share, shares
+from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
 from verification.laws import LawRow
 from verification.machine import Machine
@@ -40,7 +44,8 @@ __all__ = ["Missed", "Report", "report", "work_off"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
 Moved = DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | TopStudy
-Missed = Trial | Moved | Cell | Check | ContactStudy | CrossCheck | ExplicitLimit | LawRow | MotionRow
+Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
+Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow
 # Fields of the report that are the rows of a topic, as they come.
 AS_FOUND = {
     "one_step": "one step",
@@ -56,6 +61,10 @@ AS_FOUND = {
     "motions": "hard motion",
     "tops": "rigid",
     "touching": "contact",
+    "grooves": "groove",
+    "beside": "side by side",
+    "contact_maps": "contact map",
+    "hard_contacts": "hard contact",
 }
 
 
@@ -92,6 +101,10 @@ class Report:
         paces: Milliseconds a step.
         tops: Rigid bodies by each rotation integrator.
         touching: Rods on rigid surfaces on finer and finer levels.
+        grooves: The fibre in the groove over steps, elements and penalty.
+        beside: Both models on it, side by side.
+        contact_maps: Outcome over step, penalty and length of the elements.
+        hard_contacts: What contact stumbles over.
         contenders: Other people's solvers and our models on one problem.
     """
 
@@ -124,6 +137,10 @@ class Report:
     contenders: tuple[Contender, ...] = ()
     tops: tuple[TopStudy, ...] = ()
     touching: tuple[ContactStudy, ...] = ()
+    grooves: tuple[GrooveSweep, ...] = ()
+    beside: tuple[SideBySide, ...] = ()
+    contact_maps: tuple[ContactCell, ...] = ()
+    hard_contacts: tuple[ContactRow, ...] = ()
 
     def compile_ms(self, model: str) -> float | None:
         """What a model spent on making or loading its forms when it was first used [ms]."""
@@ -143,7 +160,9 @@ class Report:
         for rows in (*kinds, self.hard, self.shares, self.largest, self.limits, self.maps, self.motions):
             missed += [row for row in rows if not row.holds]
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
-        missed += [row for row in (*moved, *self.touching) if not row.holds]
+        missed += [row for row in moved if not row.holds]
+        touched: tuple[Touched, ...] = (*self.touching, *self.grooves, *self.beside, *self.contact_maps)
+        missed += [row for row in (*touched, *self.hard_contacts) if not row.holds]
         missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
 

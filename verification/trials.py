@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 from importlib import import_module
 
-from verification import contacttrials, eigencases, hardcases, motiontrials, stepping, toptrials
+from verification import contacttrials, contactwork, eigencases, hardcases, motiontrials, stepping, toptrials
 from verification.eigencase import Eigencase
 from verification.hard import hard, pairs
 from verification.hardcase import HardCase, Refined
@@ -34,6 +34,7 @@ def names() -> tuple[str, ...]:
         *motiontrials.names(),
         *toptrials.names(),
         *contacttrials.names(),
+        *contactwork.names(),
     )
 
 
@@ -73,6 +74,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from motiontrials.listing(asked)
     yield from toptrials.listing(asked)
     yield from contacttrials.listing(asked)
+    yield from contactwork.listing(asked)
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -100,6 +102,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from motiontrials.units(asked, quick=quick)
     yield from toptrials.units(asked, quick=quick)
     yield from contacttrials.units(asked, quick=quick)
+    yield from contactwork.units(asked, quick=quick)
 
 
 def _critical(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:

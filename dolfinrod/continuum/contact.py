@@ -15,7 +15,7 @@ import numpy as np
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.lumped import node_lengths
 from dolfinrod.continuum.rubbing import rubs
-from dolfinrod.continuum.touched import COLUMNS, FELT, MEMORY
+from dolfinrod.continuum.touched import COLUMNS, packed, unpacked
 from dolfinrod.scene import Touch
 
 if TYPE_CHECKING:
@@ -160,7 +160,14 @@ class Contacts:
     @property
     def changed(self) -> bool:
         """Whether any node has come to touch, stick or slide, or ceased to, since the answer before the last one."""
-        mine = any(side.touch.changed for side in self._sides)
+        return self._on_any_rank(any(side.touch.changed for side in self._sides))
+
+    @property
+    def pierced(self) -> bool:
+        """Whether the step has led a rod into or through a wall."""
+        return self._on_any_rank(any(side.touch.pierces() for side in self._sides))
+
+    def _on_any_rank(self, mine: bool) -> bool:
         return bool(self._problem.discretization.comm.allreduce(mine, op=MPI.LOR))
 
     @property
@@ -180,7 +187,7 @@ class Contacts:
         self._respond()
         self._seen = None
         done = [side.touch.renew() for side in self._sides]
-        return bool(self._problem.discretization.comm.allreduce(all(done), op=MPI.LAND))
+        return not self._on_any_rank(not all(done))
 
     def accept(self) -> list[float]:
         """The step counts; energies that this rank's nodes have rubbed off and were given by walls, in EI/L."""
@@ -214,16 +221,7 @@ class Contacts:
         n = sum(COLUMNS.values())
         table = np.zeros((len(self.r), len(self._sides) * n))
         for k, side in enumerate(self._sides):
-            felt = {name: getattr(side.reply, name) for name in FELT}
-            columns = [np.full(len(side.nodes), self.t), *(side.touch.memory() | felt).values()]
-            rows = np.concatenate(
-                [
-                    values.reshape(len(side.nodes), width)
-                    for values, width in zip(columns, COLUMNS.values(), strict=True)
-                ],
-                axis=1,
-            )
-            table[side.nodes, k * n : (k + 1) * n] = rows
+            table[side.nodes, k * n : (k + 1) * n] = packed(self.t, side.touch.memory(), side.reply)
         carrier = backend.function(d.space)
         by_cell = []
         for column in table.T:
@@ -237,14 +235,10 @@ class Contacts:
         d = self._problem.discretization
         local, n = np.zeros((len(self._problem.x), kept.shape[2])), sum(COLUMNS.values())
         local[d.dofs["r"][:, :, 0]] = kept
-        table, ends = local[self.r[:, 0]], np.cumsum(list(COLUMNS.values()))
+        table = local[self.r[:, 0]]
         self._q_0, self._seen = self._problem.x[self.q], None
         last = float(self._problem.discretization.comm.allreduce(kept[..., :1].max(initial=0.0), op=MPI.MAX))
         self.t = last if t is None else t
         for k, side in enumerate(self._sides):
-            parts = np.split(table[side.nodes, k * n : (k + 1) * n], ends[:-1], axis=1)
-            values = {
-                name: part if COLUMNS[name] > 1 else part[:, 0] for name, part in zip(COLUMNS, parts, strict=True)
-            }
-            side.touch.recall({name: values[name] for name in MEMORY}, self.t)
+            side.touch.recall(unpacked(table[side.nodes, k * n : (k + 1) * n]), self.t)
         self._respond()

@@ -14,6 +14,7 @@ from dolfinrod.continuum.stability import Verdict
 from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.result import StepLog
 from dolfinrod.scene import Dynamic, corners
+from dolfinrod.scene.piercing import PIERCED
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -202,6 +203,8 @@ class Walk:
         outcome = equilibrium(self.newton, self._phase, last)
         if not outcome.converged:
             return outcome, None, None
+        if problem.contacts is not None and problem.contacts.pierced:
+            return replace(outcome, converged=False, reason=PIERCED), None, None
         turn = largest_turn_between_nodes(problem)
         if turn > ALIASED:
             return replace(outcome, converged=False, reason=COARSE.format(turn)), None, None

@@ -10,22 +10,37 @@ import numpy as np
 from dolfinrod.result import ContactHistory, Touching
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from dolfinrod.result import RodHistory
     from dolfinrod.scene import Contact
+    from dolfinrod.scene.reply import Reply
 
     Array = NDArray[np.float64]
 
-__all__ = ["COLUMNS", "FELT", "MEMORY", "contact_histories"]
+__all__ = ["COLUMNS", "contact_histories", "packed", "unpacked"]
 
 # What a node remembers of each contact, and what it feels there, with the number of components.
 MEMORY = {"x": 3, "anchored": 3, "multiplier": 1, "slip": 1, "state": 1}
 FELT = {"gap": 1, "pressure": 1, "normal": 3, "traction": 3}
 COLUMNS = {"t": 1, **MEMORY, **FELT}
 SHOWN = ("gap", "pressure", "normal", "traction", "slip", "state")
+
+
+def packed(t: float, memory: Mapping[str, Array], reply: Reply) -> Array:
+    """What nodes remember at a time and feel there, shape (n, n_columns)."""
+    values = [np.full(len(reply.gap), t), *memory.values(), *(getattr(reply, name) for name in FELT)]
+    widths = COLUMNS.values()
+    return np.concatenate([v.reshape(len(v), width) for v, width in zip(values, widths, strict=True)], axis=1)
+
+
+def unpacked(table: Array) -> dict[str, Array]:
+    """What they remember, out of that."""
+    parts = np.split(table, np.cumsum(list(COLUMNS.values()))[:-1], axis=1)
+    named = dict(zip(COLUMNS, parts, strict=True))
+    return {name: named[name] if width > 1 else named[name][:, 0] for name, width in MEMORY.items()}
 
 
 def contact_histories(

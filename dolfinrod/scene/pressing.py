@@ -27,6 +27,8 @@ Flags = NDArray[np.bool_]
 
 # Distance from touching, in radii, that is round-off.
 GRAZING = 1e-9
+# A renewal of multipliers that leaves more than this of the penetration is followed by a firmer law, and how firm.
+SLOW, FIRMER, FIRMEST = 0.25, 10.0, 1e6
 
 
 class Pressing:
@@ -41,13 +43,13 @@ class Pressing:
     """
 
     def __init__(self, law: NormalLaw, radius: Array) -> None:
-        self._full, self._radius = law, radius
+        self._full, self._radius, self._firm = law, radius, 1.0
         self.begin()
 
     def begin(self) -> None:
         """An iteration begins."""
-        self.law = self._full
-        self._led: tuple[Flags, Array, Array, Array] | None = None
+        self.soften(1.0)
+        self._worst = np.inf
         self._kept = np.zeros(len(self._radius), dtype=bool)
 
     def cling(self, pressed: Flags, gap: Array) -> Flags:
@@ -60,8 +62,8 @@ class Pressing:
 
     def soften(self, by: float) -> None:
         """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
-        self.law = self._full.softened(by)
-        self._led = None
+        self.law = self._full if by == self._firm else self._full.softened(by / self._firm)
+        self._led: tuple[Flags, Array, Array, Array] | None = None
 
     def at(self, X: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:
         """Pressures at the end of a step.
@@ -96,6 +98,23 @@ class Pressing:
         """The same of mean pressures over steps from gaps `start` on, which are taken as they are."""
         p, slope = self.law.mean(start, gap, λ)
         return (*self._grazing(p, slope, p > 0.0, gap), p)
+
+    def enough(self, p: Array, gap: Array) -> bool:
+        """Whether multipliers need no renewal; where the last one did little, the law is made firmer for good.
+
+        Args:
+            p: Pressures, shape (n,).
+            gap: Shape (n,) [m].
+        """
+        tolerance = getattr(self._full, "tolerance", np.inf)
+        worst = float(np.abs(gap[p > 0.0]).max(initial=0.0))
+        if worst <= tolerance:
+            return True
+        if worst > SLOW * self._worst and self._firm < FIRMEST:
+            self._firm *= FIRMER
+            self.soften(1.0)
+        self._worst = worst
+        return False
 
     def led(self, X: Array, p: Array, p_X: Array, pressed: Flags) -> None:
         """From here the next linear step is taken; arguments as for `at`, p_X of shape (n, 3)."""

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
+from dolfinrod.scene.piercing import pierces
 from dolfinrod.scene.pressing import Pressing
 from dolfinrod.scene.reply import OPEN, SLIDES, STICKS, Booked, Gradient, Reply
 from dolfinrod.scene.rubbing import Pressed, Step, cross, rubbed, skew, slip_gradients, traction_gradient
@@ -193,14 +194,14 @@ class Touch:
 
     def renew(self) -> bool:
         """Give the multipliers what has just acted; whether that was within the tolerance of the law already."""
-        tolerance = getattr(self.contact.law, "tolerance", None)
-        if tolerance is None:
-            return True
-        touching = self._reply.pressure > 0.0
-        done = not bool((np.abs(self._reply.gap[touching]) > tolerance).any())
+        done = self._pressing.enough(self._reply.pressure, self._reply.gap)
         if not done:
             self._λ = self._reply.pressure.copy()
         return done
+
+    def pierces(self) -> bool:
+        """Whether the step has led into or through the wall: it was too long."""
+        return pierces(self.contact.surface, self._X_0, self._step.X)
 
     def accept(self) -> Booked:
         """The step counts, with what has acted in it."""

@@ -133,15 +133,17 @@ def test_a_rod_bends_upon_a_wall_in_a_few_load_steps(law, friction):
     assert rod.state[-1][-1] > 0
 
 
-def test_an_augmented_lagrangian_lets_nothing_in_and_says_where_it_cannot():
+def test_an_augmented_lagrangian_lets_nothing_in_however_soft_it_begins():
     deep = discrete.solve(over_a_wall(AugmentedLagrangian(1e6, 1e-7)), elements=20)
     rod = deep.contacts[0].rods[0]
     assert np.abs(rod.gap[-1][rod.pressure[-1] > 0.0]).max() <= 1e-7
     hard = discrete.solve(over_a_wall(Penalty(1e9)), elements=20)
     assert deep.tip == pytest.approx(hard.tip, abs=1e-6)
     assert deep.log[0].stable is None
-    with pytest.raises(NotConverged, match="its eps_N is too small"):
-        discrete.solve(over_a_wall(AugmentedLagrangian(10.0, 1e-9)), elements=20)
+    soft = discrete.solve(over_a_wall(AugmentedLagrangian(10.0, 1e-9)), elements=20)
+    rod = soft.contacts[0].rods[0]
+    assert np.abs(rod.gap[-1][rod.pressure[-1] > 0.0]).max() <= 1e-9
+    assert soft.tip == pytest.approx(hard.tip, abs=1e-6)
 
 
 def on_a_slope(tan: float) -> Scene:

@@ -7,11 +7,15 @@ from typing import Any
 
 from verification.checks import Check
 from verification.contact import ContactStudy
+from verification.contactmaps import ContactCell
 from verification.crosscheck import BAND, CrossCheck
 from verification.drift import KEPT, DriftStudy
 from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
+from verification.groovebench import LIMIT, GrooveSweep
+from verification.grooveprofile import AGREES, SideBySide
 from verification.hard import HardRow, Share
+from verification.hardcontact import MOST_ITERATIONS, ContactRow
 from verification.hardmotion import MotionRow
 from verification.laws import LawRow
 from verification.maps import Cell
@@ -179,6 +183,34 @@ def _(row: TopStudy) -> str:
         f"orders {orders} of {row.theory} in spin, attitude and energy, momentum off by {scientific(max(row.momentum))}"
     )
     return f"{row.title}: {row.integrator} has {found}, largest gain of energy {scientific(row.gain)}"
+
+
+@sentence.register
+def _(row: ContactCell) -> str:
+    place = f"steps of {row.dt:g} s, ε_N = {row.eps_N:g} N/m², elements of {1e3 * row.l:g} mm"
+    found = f"Contact map: {row.scheme}, {place}: {row.outcome}"
+    return found + (f", {row.reason}" if row.reason else "")
+
+
+@sentence.register
+def _(row: ContactRow) -> str:
+    if row.outcome == "converged":
+        return f"{row.title}: {row.solver} took {row.a_step:.1f} iterations a step, at most {MOST_ITERATIONS:g}"
+    return f"{row.title}: {row.solver} {row.outcome.lower()}, {row.reason}"
+
+
+@sentence.register
+def _(row: GrooveSweep) -> str:
+    failures = [p.failure for p in row.points if p.failure]
+    if failures:
+        return f"{row.title}: {row.solver} over {row.over} was refused: {failures[0]}"
+    off = scientific(row.points[-1].error)
+    return f"{row.title}: {row.solver} over {row.over} is {off} off the other model, at most {LIMIT:g}"
+
+
+@sentence.register
+def _(row: SideBySide) -> str:
+    return f"{row.title}: forces of contact of the models differ by {scientific(row.forces)}, at most {AGREES:g}"
 
 
 def verdict(stable: bool | None) -> str:

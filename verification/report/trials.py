@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from verification.references.robustness import PEER_LOADS
-from verification.report import motion, rigid
+from verification.report import contact, contactmaps, groove, hardcontact, motion, rigid
 from verification.report.critical import brackets, eigenvalues
 from verification.report.hardmotion import hard_motions
 from verification.report.maps import limits, maps
@@ -29,6 +29,10 @@ TITLES = {
     "hard-motion": "Hard cases in motion",
     **motion.TITLES,
     "tops": rigid.TITLE,
+    "contact": contact.TITLE,
+    "groove": groove.TITLE,
+    "contact-maps": contactmaps.TITLE,
+    "hard-contact": hardcontact.TITLE,
 }
 WORDS = {
     "eigen": "Critical loads with all deformation before them, and natural frequencies, against characteristic "
@@ -62,6 +66,10 @@ WORDS = {
     "attempts failed than steps were asked for.",
     **motion.WORDS,
     "tops": rigid.WORDS,
+    "contact": contact.WORDS,
+    "groove": groove.WORDS,
+    "contact-maps": contactmaps.WORDS,
+    "hard-contact": hardcontact.WORDS,
 }
 
 
@@ -79,6 +87,10 @@ def contents(report: Report) -> dict[str, str]:
     }
     parts |= motion.contents(report)
     parts["tops"] = rigid.tops(report.tops) if report.tops else ""
+    parts["contact"] = contact.contact_cases(report.touching) if report.touching else ""
+    parts["groove"] = groove.groove(report.grooves, report.beside) if report.grooves or report.beside else ""
+    parts["contact-maps"] = contactmaps.contact_maps(report.contact_maps) if report.contact_maps else ""
+    parts["hard-contact"] = hardcontact.hard_contacts(report.hard_contacts) if report.hard_contacts else ""
     return {key: text for key, text in parts.items() if text}
 
 
@@ -95,4 +107,16 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
         ("hard-motion", report.motions, "hard motions: finished with a sound ledger, or refused with a reason"),
         *motion.outcomes(report),
         ("tops", report.tops, "rigid tops: orders of theory, momentum kept, energy lost or swinging as it should"),
+        ("contact", report.touching, "ways to take a rod on a surface: answers within their limits, orders as stated"),
+        ("groove", (*report.grooves, *report.beside), "ways into the groove on which the models agree"),
+        (
+            "contact-maps",
+            report.contact_maps,
+            "cells of contact: implicit Euler never fails, friction that sticks never creeps",
+        ),
+        (
+            "hard-contact",
+            report.hard_contacts,
+            "hard contacts: the end sought in few iterations, or a refusal in words",
+        ),
     )
