@@ -182,6 +182,12 @@ class Contacts:
         for side in self._sides:
             side.touch.soften(by)
 
+    def foresee(self, r: Array) -> bool:
+        """Whether a linear step of the rank's own nodes to r changes what is pressed; the next answer is with that."""
+        each = [side.touch.foresee(self._problem.placement.to_space(r[side.nodes])) for side in self._sides]
+        self._seen = None
+        return self._on_any_rank(any(each))
+
     def renew(self) -> bool:
         """Renew multipliers; whether penetrations were within their tolerances already."""
         self._respond()

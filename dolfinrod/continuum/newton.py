@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
     from dolfinrod.continuum.problem import Problem
 
+    Array = NDArray[np.float64]
+
 __all__ = ["Newton", "Outcome"]
 
 # Largest turn of a section in one iteration [rad]: beyond it the linearised rotation says nothing any more.
@@ -34,6 +36,8 @@ LARGEST_TURN = 2.0
 TOLERANCE = 1e-9
 # Where Newton converges quadratically, an increment this small is known to come next without computing it.
 NEGLIGIBLE = 1e-13
+# Turn in an iteration [rad] beyond which what it presses is found out before anything moves, and in how many trials.
+WIDE, FORESIGHTS = 0.1, 2
 # Iterations after which a load step is given up; a rod that winds up five turns takes about twenty.
 MOST_ITERATIONS = 50
 
@@ -78,7 +82,7 @@ class Newton:
         self.problem = problem
         d = problem.discretization
         self.factorizations = 0
-        self._q = d.owned_nodes("q")
+        self._r, self._q, self._foresights = d.owned_nodes("r"), d.owned_nodes("q"), 0
         self._linear = [d.owned_nodes(f).ravel() for f in ("r", "N", "m")]
         self._m = self._linear[-1]
         self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
@@ -101,13 +105,10 @@ class Newton:
         ksp = snes.getKSP()
         ksp.setType(PETSc.KSP.Type.PREONLY)
         self._lu = lu(ksp.getPC(), self._A, self.problem.discretization.band)
-        options = {"rod_snes_linesearch_type": "basic"}
-        database = PETSc.Options()
-        for name, value in options.items():
-            database[name] = value
+        database, option = PETSc.Options(), "rod_snes_linesearch_type"
+        database[option] = "basic"
         snes.setFromOptions()
-        for name in options:
-            database.delValue(name)
+        database.delValue(option)
         return snes
 
     def solve(self, last: NDArray[np.float64] | None = None) -> Outcome:
@@ -116,10 +117,10 @@ class Newton:
         Args:
             last: The equilibrium on this rank that the state was extrapolated from; None: it is one itself.
         """
-        contacts, x = self.problem.contacts, self.problem.x
+        contacts, x, fully = self.problem.contacts, self.problem.x, (MOST_ITERATIONS, TOLERANCE)
         if contacts is None:
-            return self._found(last, MOST_ITERATIONS, TOLERANCE)
-        return renewed(contacts, lambda: pressed(x, contacts, partial(self._found, last), MOST_ITERATIONS, TOLERANCE))
+            return self._found(last, *fully)
+        return renewed(contacts, lambda: pressed(x, contacts, partial(self._found, last), *fully))
 
     def _found(self, last: NDArray[np.float64] | None, most: int, fine: float) -> Outcome:
         """A zero of the residual, in so many iterations at most, the last of this size."""
@@ -195,6 +196,9 @@ class Newton:
         sizes = np.abs(y), np.abs(x)
         largest = self._largest(kin.angles(increment), *(size[dofs] for size in sizes for dofs in self._linear))
         turn = largest[0]
+        if turn > WIDE and self._foresees(x, y):
+            y[:] = 0.0
+            return True
         if turn > LARGEST_TURN:
             increment *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
@@ -203,6 +207,15 @@ class Newton:
         self._moved = max(turn, largest[1])
         before, self._size = (self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0))))
         self._next = self._expected(before, self._size)
+        return True
+
+    def _foresees(self, x: Array, y: Array) -> bool:
+        """Whether so long a step presses other points than it was taken with: it is taken anew with these first."""
+        contacts = self.problem.contacts
+        if contacts is None or self._foresights == FORESIGHTS or not contacts.foresee(x[self._r] - y[self._r]):
+            self._foresights = 0
+            return False
+        self._foresights += 1
         return True
 
     def _expected(self, before: float, size: float) -> float:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["DIRECT", "pressed", "renewed"]
 
 # Iterations after which a wall is approached by way of softer ones: what is pressed then changes little by little.
-DIRECT = 12
+DIRECT = 20
 # Stiffness of the softest in EI/L⁴, against which a rod bends over a tenth of its length, and of each over the last.
 SOFTEST, STIFFER = 1e5, 100.0
 # Increments, relative to the unknowns, at which a softer wall has told enough.

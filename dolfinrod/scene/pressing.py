@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from dolfinrod.scene.pressure import NormalLaw
 
-__all__ = ["Pressing"]
+__all__ = ["GRAZING", "Pressing"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -64,6 +64,7 @@ class Pressing:
         """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
         self.law = self._full if by == self._firm else self._full.softened(by / self._firm)
         self._led: tuple[Flags, Array, Array, Array] | None = None
+        self._foreseen: Flags | None = None
 
     def at(self, X: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:
         """Pressures at the end of a step.
@@ -78,7 +79,10 @@ class Pressing:
         """
         p, slope = self.law.pressure(gap, λ)
         expected, pressed = p, p > 0.0
-        if self._led is None:
+        if self._foreseen is not None:
+            pressed, self._foreseen = self._foreseen, None
+            expected = np.maximum(p, 0.0)
+        elif self._led is None:
             pressed = pressed | self._kept
         else:
             was, X_0, p_0, p_X = self._led
@@ -98,6 +102,25 @@ class Pressing:
         """The same of mean pressures over steps from gaps `start` on, which are taken as they are."""
         p, slope = self.law.mean(start, gap, λ)
         return (*self._grazing(p, slope, p > 0.0, gap), p)
+
+    def foresee(self, X: Array, gap: Array, normal: Array) -> bool:
+        """Whether a linear step to X presses other points than it was taken with; they are those of the next answer.
+
+        Args:
+            X: Where the step leads, shape (n, 3) [m].
+            gap: Where it was taken, shape (n,) [m].
+            normal: There, shape (n, 3).
+        """
+        assert self._led is not None
+        was, X_0, p_0, p_X = self._led
+        way = X - X_0
+        hoped = p_0 + np.einsum("ni,ni->n", p_X, way)
+        ahead = gap + np.einsum("ni,ni->n", normal, way) < self.law.g_0
+        pressed = np.where(was, hoped > 0.0, ahead)
+        if np.array_equal(pressed, was):
+            return False
+        self._foreseen, self._led = pressed, None
+        return True
 
     def enough(self, p: Array, gap: Array) -> bool:
         """Whether multipliers need no renewal; where the last one did little, the law is made firmer for good.

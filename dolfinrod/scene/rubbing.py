@@ -67,6 +67,7 @@ class Step:
         X: All points, shape (n, 3) [m].
         turned: Turn of their sections against the wall, shape (n, 3) [rad].
         gap: Shape (n,) [m].
+        normal: Of the wall at all points, shape (n, 3).
         on: Numbers of those that touch, shape (m,).
         pressed: These.
         share: Part of the step over which they did, shape (m,).
@@ -78,6 +79,7 @@ class Step:
     X: Array
     turned: Array
     gap: Array
+    normal: Array
     on: NDArray[np.intp]
     pressed: Pressed
     share: Array

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
 from dolfinrod.scene.piercing import pierces
-from dolfinrod.scene.pressing import Pressing
+from dolfinrod.scene.pressing import GRAZING, Pressing
 from dolfinrod.scene.reply import OPEN, SLIDES, STICKS, Booked, Gradient, Reply
 from dolfinrod.scene.rubbing import Pressed, Step, cross, rubbed, skew, slip_gradients, traction_gradient
 from dolfinrod.scene.surfaces import REST, Pose
@@ -45,9 +45,6 @@ class Touch:
         anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
         self._stiffness = contact.law.eps_N if anchors is None else anchors
         self._ε_T = self._stiffness
-        n = len(radius)
-        self._λ_0, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
-        self._state, self._state_0 = np.zeros(n, dtype=np.int8), np.zeros(n, dtype=np.int8)
         self.changed = False
 
     @property
@@ -57,12 +54,11 @@ class Touch:
 
     def place(self, x: Array, t: float) -> None:
         """The rods are at x; nothing is remembered."""
-        self._t_0 = t
-        self._x_0, self._X_0 = x.copy(), self._pose(t).back(x)
+        self._t_0, self._x_0, self._X_0 = t, x.copy(), self._pose(t).back(x)
         self._gap_0 = self.contact.surface.closest(self._X_0).distance - self._radius
-        for memory in (self._λ_0, self._slip, self._u):
-            memory[:] = 0.0
-        self._state, self._state_0 = np.full_like(self._state, OPEN), np.full_like(self._state, OPEN)
+        n = len(x)
+        self._λ_0, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
+        self._state = self._state_0 = np.full(n, OPEN, dtype=np.int8)
         self.begin(t)
 
     def begin(self, t: float) -> None:
@@ -73,12 +69,11 @@ class Touch:
         self._ε_T = self._stiffness
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
         unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
-        self._afar = unloaded & (self._gap_0 > self._pressing.law.g_0)
+        self._afar = unloaded & (self._gap_0 - self._pressing.law.g_0 > GRAZING * self._radius)
         dt = t - self._t_0
         # Where the rods were placed nothing moves yet.
         self._t, self._rate = t, 1.0 / dt if dt > 0.0 else 0.0
-        start, self._end, middle = (self._pose(s) for s in (self._t_0, t, self._t_0 + self._level * dt))
-        self._acting, self._start = middle, start
+        self._end, self._acting = self._pose(t), self._pose(self._t_0 + self._level * dt)
         motion = self.contact.surface.motion
         self._wall_turn = (
             np.zeros(3) if motion is None else motion.turn(t, self._t_end) - motion.turn(self._t_0, self._t_end)
@@ -100,8 +95,8 @@ class Touch:
         """
         step = self._step = self._led(self._end.back(x), turn @ self._end.Q - self._wall_turn)
         Q, n = self._acting.Q, len(x)
-        pressure, normal, traction, moment = np.zeros(n), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros((n, 3))
-        state = np.zeros(n, dtype=np.int8)
+        normal, traction, moment = np.zeros((3, n, 3))
+        pressure, state = np.zeros(n), np.zeros(n, dtype=np.int8)
         pressed, on = step.pressed, step.on
         pressure[on], normal[on] = pressed.p, pressed.n @ Q.T
         state[on] = np.where(pressed.p != 0.0, SLIDES, OPEN)
@@ -135,7 +130,7 @@ class Touch:
         )
         share, none = np.ones(len(on)), np.zeros((len(on), 3))
         if not isinstance(self._friction, Coulomb) or not len(on):
-            return Step(X, turned, gap, on, pressed, share, none, none, None)
+            return Step(X, turned, gap, at_end, on, pressed, share, none, none, None)
         # What came from afar in this step has touched only over the last part of its way.
         far = self._afar[on]
         way = np.where(far & (self._gap_0 > gap)[on], (self._gap_0 - gap)[on], 1.0)
@@ -143,7 +138,7 @@ class Touch:
         w = (X - self._X_0)[on] - pressed.radius[:, None] * cross(turned[on], pressed.n)
         v = self._u[on] + share[:, None] * w
         rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on])
-        return Step(X, turned, gap, on, pressed, share, w, v, rubbing)
+        return Step(X, turned, gap, at_end, on, pressed, share, w, v, rubbing)
 
     def _velocity(self, x: Array) -> tuple[Array, Array]:
         """Velocity of the points that touch in space, and √(|v|² + v_0²)."""
@@ -187,8 +182,12 @@ class Touch:
         """Begin the iteration with what was pressed and stuck before, wherever the wall has gone meanwhile."""
         self._clings = self._pressing.cling(self._state_0 > OPEN, self._gap_0) & (self._state_0 != SLIDES)
 
+    def foresee(self, x: Array) -> bool:
+        """Whether a linear step to x presses other points than it was taken with; then these are in the next answer."""
+        return self._pressing.foresee(self._end.back(x), self._step.gap, self._step.normal)
+
     def soften(self, by: float) -> None:
-        """Let the wall be softer by a factor until the next `begin`, or `soften(1)`: on the way to what is pressed."""
+        """Let the wall be softer by a factor until the next `begin`: on the way to what is pressed."""
         self._pressing.soften(by)
         self._ε_T = self._stiffness / by
 
@@ -210,9 +209,8 @@ class Touch:
         creeps = isinstance(self._friction, CreepingCoulomb)
         force = reply.pressure[:, None] * reply.normal if creeps else reply.force
         on, anchors = step.on, 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
-        path, turned = step.X - self._X_0, step.turned
-        in_wall = np.einsum("ni,ni->n", force @ self._acting.Q, path)
-        in_wall += np.einsum("ni,ni->n", reply.moment @ self._acting.Q, turned)
+        in_wall = np.einsum("ni,ni->n", force @ self._acting.Q, step.X - self._X_0)
+        in_wall += np.einsum("ni,ni->n", reply.moment @ self._acting.Q, step.turned)
         moved = self._x - self._x_0
         pushed = np.einsum("ni,ni->n", force, moved) + np.einsum("ni,ni->n", reply.moment, self._turn) - in_wall
         self._u[:] = 0.0
