@@ -9,8 +9,10 @@ from functools import partial
 import numpy as np
 
 import dolfinrod as dr
+from tests.mutations import contact_measures as touching
 from tests.mutations import measures as by
 from tests.mutations import motions as moving
+from tests.mutations.contact_scenes import ROUGH
 from tests.mutations.measures import Solve
 from tests.mutations.scenes import CURVED, TWISTED, loaded_in_a_plane, loaded_in_every_way
 from tests.scenes import KIRCHHOFF, SKEW, followed
@@ -96,4 +98,29 @@ LAWS = {
     "fall by midpoint": Law("the same by ½ g t²", partial(moving.fall, moving.MIDPOINT), 1e-9),
     "terminal speed": Law("a level fibre falls through air at 0.08695 m/s", moving.terminal_speed, 1e-4),
     "settled": Law("a damped bar comes to rest at u = F L/EA", moving.settled, 1e-9),
+    "lying": Law("p = q at every node, where the law has it", partial(touching.rests, None), 1e-8),
+    "lying and rough": Law("the same with friction", partial(touching.rests, ROUGH), 1e-8),
+    "held by friction": Law("u = t/ε_T and no slip, in four steps", partial(touching.sticks, dr.Static(steps=4)), 1e-8),
+    "held by friction in motion": Law(
+        "the same at rest at last", partial(touching.sticks, dr.Dynamic(1.0, 0.05, output=1.0)), 1e-8
+    ),
+    "drawn forth and back": Law("a wall takes along a rod held still by μ q, either way", touching.drawn_along, 1e-8),
+    "moments of friction": Law("act at the surface of the rod", touching.moments, 1e-8),
+    "carried along": Law("what sticks to a wall turns with it and is as before", touching.carried_along, 1e-8),
+    "lifted": Law("a rod lifted from a wall is as if there had been none", touching.lifted_off, 1e-9),
+    "few iterations on a drum": Law("a fifth more load at once: at most 5", touching.iterations, 5),
+    "pressures of a hard wall": Law("p = ε (g_0 − g)", touching.presses, 1e-9),
+    "slopes of contact": Law("are those of force and moment", touching.tangent, 1e-6),
+    "landed": Law("t = ε_T times the way in touch", touching.lands, 1e-8),
+    "penetration": Law("is within the tolerance of an augmented Lagrangian", touching.penetrates, 1.0),
+    "tried again": Law("a step that fails leaves no trace in contact", touching.tries_again, 1e-12),
+    "impact by midpoint": Law("leaves the energy that came", touching.bounces, 1e-8),
+    "energy of contact": Law("½ ε δ² per length", touching.stores, 1e-9),
+    "belt": Law("what it takes along gets v, and loses half of its work", touching.taken_along, 5e-3),
+    "gone on": Law(
+        "a solve interrupted and gone on with ends like a whole one",
+        partial(touching.goes_on, dr.Static(steps=4)),
+        1e-8,
+    ),
+    "gone on in motion": Law("the same", partial(touching.goes_on, dr.Dynamic(0.8, 0.05)), 1e-8),
 }

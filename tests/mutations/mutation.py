@@ -1,4 +1,4 @@
-"""What a mutation is, and those that issues 3 and 5 ask for."""
+"""What a mutation is, and those that issues 3, 5 and 6 ask for."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from tests.mutations.planting import Plant
 
-# What issues 3 and 5 list, in their words.
+# What issues 3, 5 and 6 list, in their words.
 ASKED = (
     "4× axial stiffness",
     "sign of the u–w coupling",
@@ -21,6 +21,11 @@ ASKED = (
     "J* not rotated",
     "wrong end-node mass",
     "momentum at the wrong time level",
+    "friction without stick",
+    "slip measured against the fixed frame",
+    "normal not unit",
+    "gap from the centreline",
+    "missing friction moment",
 )
 
 

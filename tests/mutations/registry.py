@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from tests.mutations import continuum_mutations, discrete_mutations, form_mutations, motion_mutations
+from tests.mutations import (
+    contact_mutations,
+    continuum_mutations,
+    discrete_mutations,
+    form_mutations,
+    motion_mutations,
+)
 
 __all__ = ["MUTATIONS", "mutations"]
 
@@ -11,6 +17,7 @@ MUTATIONS = (
     *continuum_mutations.MUTATIONS,
     *form_mutations.MUTATIONS,
     *motion_mutations.MUTATIONS,
+    *contact_mutations.MUTATIONS,
 )
 
 
