@@ -220,7 +220,8 @@ def _begin(method: Equilibrium, scene: Scene, start: Result | None) -> Path[Stat
             state.R[section.node] = section.frame(state.factors)
         if start.scene == scene and start.t[-1] < scene.motion.t_end:
             t = float(start.t[-1])
-    method.place(state, t, {} if start is None or t == 0.0 else start.state)
+    met = start is not None and start.scene.contacts == scene.contacts
+    method.place(state, t, start.state if start is not None and met else {})
     path = Path(state)
     path.kept.append(method.snapshot(state, t))
     return path

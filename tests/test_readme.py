@@ -86,3 +86,32 @@ def test_motion_example_prints_what_its_comments_say():
     gained = sum(energy[name] - energy[name][0] for name in ("kinetic", "strain", "potential"))
     works = sum(energy[name] for name in ("load work", "support work", "drag", "damping", "numerical"))
     np.testing.assert_allclose(gained, works, rtol=0, atol=1e-10 * np.abs(gained).max())
+
+
+def contact_section() -> tuple[str, str]:
+    """Its example in Python and its scene file."""
+    section = README.split("## Contact and friction")[1].split("\n## ")[0]
+    (python,), (table,) = (re.findall(rf"```{name}\n(.*?)```", section, re.DOTALL) for name in ("python", "toml"))
+    return python, table
+
+
+def test_contact_example_prints_what_its_comments_say():
+    """The floor bears q L and holds 0.6 q L by sticking; gap g_0 − q/ε_N of Penalty.tight()."""
+    names: dict[str, object] = {"dr": dr}
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        exec(compile(contact_section()[0], "README.md", "exec"), names)
+    force, numbers = printed.getvalue().splitlines()
+    np.testing.assert_allclose(np.array(force.strip("[]").split(), dtype=float), [-2.4e-4, 4e-4, 0.0], atol=1e-10)
+    gap, slip = (float(number) for number in numbers.split())
+    assert gap == pytest.approx(1e-6 - 0.01 / 4e5, rel=1e-6)
+    assert slip == 0.0
+    for name in ("s", "share", "gap", "pressure", "normal", "traction", "slip", "state"):
+        assert hasattr(names["touching"], name)
+
+
+def test_contact_in_a_scene_file_is_that_of_the_example():
+    rod = '[section.ramie.ramie]\n[[rods]]\nstraight = { length = "40 mm" }\nsection = "ramie"\n'
+    scene, _ = toml.loads(rod + contact_section()[1])
+    assert scene.contacts == (
+        dr.Contact(dr.Plane(normal=(0, 1, 0)), law=dr.Penalty.tight(), friction=dr.Coulomb(mu=0.64)),
+    )

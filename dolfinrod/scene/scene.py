@@ -16,6 +16,7 @@ from dolfinrod.scene.motion import Dynamic, Motion, Static
 from dolfinrod.scene.quantity import Place, assign
 from dolfinrod.scene.rod import Rod
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
+from dolfinrod.scene.surfaces import refuse_sharp
 from dolfinrod.scene.velocity import Velocity
 
 __all__ = ["MOST_PARTS", "Scene"]
@@ -190,9 +191,11 @@ class Scene:
                 below = f"must be below {len(self.rods)}, the number of rods, got {contact.rod}"
                 raise SceneError(below, field=f"contacts[{i}].rod")
             for k in range(len(self.rods)) if contact.rod is None else (contact.rod,):
-                if self.rods[k].section.radius is None:
+                radius = self.rods[k].section.radius
+                if radius is None:
                     needed = f"must be given [m], since the rod may touch contacts[{i}], got None"
                     raise SceneError(needed, field=f"rods[{k}].section.radius")
+                refuse_sharp(contact.surface, radius, contact.law.g_0, f"contacts[{i}].surface")
             if isinstance(contact.friction, CreepingCoulomb) and isinstance(self.motion, Static):
                 raise SceneError(
                     "must not be CreepingCoulomb, since motion is Static: it acts against velocities",

@@ -36,7 +36,7 @@ def _straight(right: Any, self: Problem) -> None:
 def _compliance_turned_back(right: Any, self: Problem) -> None:
     """C = R₀ᵀ diag R₀ in place of R₀ diag R₀ᵀ."""
     right(self)
-    R = np.swapaxes(self._on_rods(self._along(self.discretization.points), "frames"), 2, 3)
+    R = np.swapaxes(self.layout.on_rods(self.layout.along(self.discretization.points), "frames"), 2, 3)
     sections = [rod.section for rod in self.scene.rods]
     c_n = np.array([section.compliance_n for section in sections])[self.rod] * self.placement.force
     c_m = np.array([section.compliance_m for section in sections])[self.rod] * self.placement.stiffness

@@ -232,16 +232,16 @@ ACROSS = {
     "core": dr.Cylinder((5, 5, 5), (0, 0, 1), 1.0),
     "tube along the plane": dr.Cylinder((0, 1, 0), (1, 2, 0), 1.0, "inside"),
     "core along the plane": dr.Cylinder((3, 1, 0), (-1, 0, 0), 0.01),
-    "groove": dr.Groove.v(0.3, 0.5, 1.0, point=(0, 1, 2), axis=(0, 0, -1), up=(0.6, 0.8, 0)),
+    "groove": dr.Groove.v(0.3, 0.5, 1.0, point=(0, 1, 2), axis=(0, 0, -1), up=(0.6, 0.8, 0), fillet=0.1),
 }
 ASKEW = {
     "floor": dr.Plane(normal=(0, 0, 1)),
     "slope": dr.Plane(normal=(0, 1, 1e-6)),
     "core": dr.Cylinder((0, 0, 0), (0, 1e-6, 1), 1.0),
     "tube above the plane": dr.Cylinder((0, 1, 1e-6), (1, 2, 0), 1.0, "inside"),
-    "groove along the plane": dr.Groove.v(0.3, 0.3, 1.0),
-    "groove across it": dr.Groove.v(0.3, 0.3, 1.0, axis=(0, 1e-6, 1), up=(0, 1, 0)),
-    "roller": dr.Groove.v(0.3, 0.3, 0.1, axis=(0, 0, 1), up=(0, 1, 0), roller=10.0),
+    "groove along the plane": dr.Groove.v(0.3, 0.3, 1.0, fillet=0.1),
+    "groove across it": dr.Groove.v(0.3, 0.3, 1.0, axis=(0, 1e-6, 1), up=(0, 1, 0), fillet=0.1),
+    "roller": dr.Groove.v(0.3, 0.3, 0.1, axis=(0, 0, 1), up=(0, 1, 0), fillet=0.01, roller=10.0),
 }
 WITHIN = {
     "shift": dr.WallMotion((1, 2, 0), velocity=(-1, 0, 0)),

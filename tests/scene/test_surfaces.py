@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import cos, pi, sin, tan
@@ -31,6 +32,12 @@ RUGGED = (
 )
 # Its tip is near the first corner.
 HOOK = ((-3, 0), (0, 0), (0, 3), (-2, 3), (-0.6, 0.8), (-3, 4))
+MUSHROOM = ((-3, 0), (-1, 0), (-2, 1), (2, 1), (1, 0), (3, 0))
+# A land beside a rib, a groove, a ledge and a deeper groove: what goes on straight comes out of the wall again.
+TWO_GROOVES = (
+    *((-5, 0), (-4.5, 0), (-4.5, 0.5), (-4, 0.5), (-4, 0), (-3, 0)),
+    *((-2, -0.5), (-1, 0), (0, 0), (0, -2), (1, -2), (1, 0), (3, 0)),
+)
 
 few = settings(max_examples=30)
 seeds = st.integers(0, 2**32 - 1)
@@ -49,7 +56,7 @@ def sections() -> st.SearchStrategy[dr.Groove]:
     slope, size, height = st.floats(0.2, 1.0), st.floats(0.5, 1.5), st.floats(-0.8, 0.8)
     fillet = st.one_of(st.just(0.0), st.floats(0.01, 0.1))
     filleted = st.builds(dr.Groove.v, slope, slope, size, fillet=fillet)
-    rugged = st.builds(dr.Groove, st.just(RUGGED), fillet=fillet)
+    rugged = st.builds(dr.Groove, st.sampled_from((RUGGED, TWO_GROOVES)), fillet=fillet)
     round_ = st.builds(dr.Groove.round, size, size)
     return st.one_of(st.builds(wavy, st.lists(height, min_size=1, max_size=7)), filleted, rugged, round_)
 
@@ -72,7 +79,8 @@ def surfaces() -> st.SearchStrategy[Surface]:
         st.floats(0.5, 3.0),
         st.sampled_from(["outside", "inside"]),
     )
-    return st.one_of(cylinders, st.builds(at, sections(), poses(), rollers()))
+    grooves = st.builds(at, sections(), poses(), rollers())
+    return st.one_of(cylinders, grooves, grooves.flatmap(lambda groove: st.sampled_from(groove.faces())))
 
 
 def scattered(seed: int, surface: Surface, n: int) -> Array:
@@ -411,3 +419,110 @@ def test_a_box_has_upright_walls() -> None:
 def test_up_need_not_be_across_the_groove() -> None:
     leaning = dr.Groove.lateral(axis=(0, 0, 2), up=(1e-3, 0, 5))
     np.testing.assert_allclose([leaning.axis, leaning.up], [(0, 0, 1), (1, 0, 0)], atol=1e-16)
+
+
+@few
+@given(groove=sections(), roller=rollers(), places=places)
+def test_the_nearest_of_its_faces_is_the_groove(groove: dr.Groove, roller: float | None, places: Array) -> None:
+    """Where rods may be, the least distance of all; and what is behind the wall is behind one of them."""
+    sharp = replace(groove, fillet=0.0, roller=roller)
+    whole, faces = sharp.closest(places), [face.closest(places) for face in sharp.faces()]
+    distances = np.sort([face.distance for face in faces], axis=0)
+    free = whole.distance > 0.0
+    np.testing.assert_allclose(distances[0, free], whole.distance[free], atol=ROUND_OFF)
+    assert (distances[0, ~free] <= ROUND_OFF).all()
+    alone = free & (distances[1] > distances[0] + ROUND_OFF) if len(faces) > 1 else free
+    near = np.argmin([face.distance for face in faces], axis=0)
+    for i in np.flatnonzero(alone):
+        np.testing.assert_allclose(faces[near[i]].normal[i], whole.normal[i], atol=1e-6)
+
+
+@few
+@given(groove=sections(), roller=rollers(), places=places)
+def test_rods_thicker_than_a_fillet_do_not_feel_it(groove: dr.Groove, roller: float | None, places: Array) -> None:
+    rounded, sharp = (replace(groove, fillet=fillet, roller=roller) for fillet in (groove.fillet, 0.0))
+    distance = sharp.closest(places).distance
+    thick = distance >= groove.fillet
+    np.testing.assert_allclose(rounded.closest(places).distance[thick], distance[thick], atol=ROUND_OFF)
+    assert [face.profile for face in rounded.faces()] == [face.profile for face in sharp.faces()]
+
+
+def test_faces_are_cut_where_the_wall_turns_to_its_free_side() -> None:
+    motion = dr.WallMotion(velocity=(1.0, 0.0, 0.0))
+    groove = dr.Groove([(-2, 0), (-1, 0), (0, -1), (1, -1), (1, 0), (2, 0)], fillet=0.1, motion=motion)
+    left, bottom, right = groove.faces()
+    assert left == dr.Groove([(-2, 0), (-1, 0), (0, -1)], motion=motion)
+    assert bottom == dr.Groove([(0, -1), (1, -1)], motion=motion)
+    assert right == dr.Groove([(1, -1), (1, 0), (2, 0)], motion=motion)
+    assert LIP.faces() == (LIP,)
+
+
+@pytest.mark.parametrize(("profile", "flank"), [(HOOK, "2 to 3"), (MUSHROOM, "1 to 4")])
+def test_faces_that_cannot_be(profile: tuple[tuple[float, float], ...], flank: str) -> None:
+    with pytest.raises(dr.SceneError, match=f"^Groove.profile must have faces .* from point {flank} does not"):
+        dr.Groove(profile).faces()
+
+
+def in_corner(groove: dr.Groove, surfaces: Sequence[Surface], law: dr.Penalty | dr.AugmentedLagrangian) -> dr.Scene:
+    """A rod that lies in its deepest corner, just touching both flanks, pressed down by 3 N/m and free across."""
+    corner, radius = int(np.argmin([y for _, y in groove.profile])), 0.01
+    before, at, after = np.asarray(groove.profile)[corner - 1 : corner + 2]
+    normals = [np.array([-y, z]) / np.hypot(z, y) for z, y in (at - before, after - at)]
+    z, y = at + np.linalg.solve(normals, [radius + law.g_0] * 2)
+    section = dr.Section(EA=4e3, GA=1.5e3, GJ=0.8, EI=1.0, radius=radius)
+    return dr.Scene(
+        [dr.Rod.straight(1.0, section, start=(0.0, y, z), direction=(1, 0, 0))],
+        [dr.Guide("start", free={"y", "z", "ry", "rz"})],
+        [dr.LineForce((0.0, -3.0, 0.0))],
+        [dr.Contact(surface, law) for surface in surfaces],
+    )
+
+
+@pytest.mark.parametrize("law", [dr.Penalty(2e4, 1e-3), dr.AugmentedLagrangian(2e4, 1e-9)])
+@pytest.mark.parametrize(("left", "right"), [(pi / 12, pi / 12), (pi / 12, 5 * pi / 12), (0.4, 0.9)])
+def test_each_flank_of_a_corner_carries_its_part(
+    left: float, right: float, law: dr.Penalty | dr.AugmentedLagrangian
+) -> None:
+    """C4 of the design notes for any slopes: N₁ sin β₁ = N₂ sin β₂, N₁ cos β₁ + N₂ cos β₂ = q."""
+    groove = dr.Groove.v(left, right, 0.1)
+    result = dr.solve(in_corner(groove, groove.faces(), law), elements=2, kinematics=dr.Spatial())
+    first, second = (contact.rods[0].pressure[-1] for contact in result.contacts)
+    np.testing.assert_allclose(first, 3.0 * sin(right) / sin(left + right), rtol=1e-8)
+    np.testing.assert_allclose(second, 3.0 * sin(left) / sin(left + right), rtol=1e-8)
+    if left == right:
+        np.testing.assert_allclose(first, 3.0 / (2.0 * cos(left)), rtol=1e-8)
+
+
+def test_a_corner_too_sharp_for_its_rod_is_refused() -> None:
+    """Radius 1 cm, contact from a gap of 1 mm on: both flanks are met at once where the corner is no wider."""
+    law, sharp = dr.Penalty(2e4, 1e-3), dr.Groove.v(0.4, 0.9, 0.1)
+    for groove in (sharp, replace(sharp, fillet=0.011)):
+        with pytest.raises(dr.SceneError) as caught:
+            in_corner(sharp, [groove], law)
+        assert caught.value.field == "contacts[0].surface.fillet"
+        assert caught.value.message == (
+            "must be above 0.011 m, since a rod of radius 0.01 m at a gap of 0.001 m touches both flanks of a sharper"
+            f" corner, got {groove.fillet!r} m: give Groove(fillet=…), or one Contact for each of its faces()"
+        )
+    ridge = replace(LIP, point=(0.0, -2.0, 0.0))
+    assert in_corner(sharp, [replace(sharp, fillet=0.0111), ridge, *sharp.faces()], law)
+
+
+def test_each_flank_carries_its_part_around_a_roller() -> None:
+    """A rope in a corner, a quarter round, pulled by 1 N at both ends: sin β₁ ∫N₁ = sin β₂ ∫N₂, and √2 N in all."""
+    left, right, radius = 0.4, 0.9, 1e-3
+    groove = dr.Groove.v(left, right, 0.02, axis=(1, 0, 0), up=(0, 1, 0), roller=1.0)
+    normals = [(sin(left), cos(left)), (-sin(right), cos(right))]
+    z, y = np.asarray(groove.profile[2]) + np.linalg.solve(normals, [radius] * 2)
+    section, ρ, c = dr.Section(EA=1e4, GA=4e3, GJ=1e-3, EI=1e-3, radius=radius), 1.0 + y, cos(pi / 4)
+    rope = dr.Rod.arc(ρ, pi / 2, section, start=(-ρ * c, ρ * c - 1.0, z), direction=(c, c, 0), towards=(c, -c, 0))
+    scene = dr.Scene(
+        [rope],
+        [dr.Guide(rope.length / 2, free={"y", "z", "ry", "rz"})],
+        [dr.PointForce((-c, -c, 0), "start"), dr.PointForce((c, -c, 0), "end")],
+        [dr.Contact(face, dr.Penalty(1e5)) for face in groove.faces()],
+    )
+    result = dr.solve(scene, elements=8, kinematics=dr.Spatial())
+    first, second = (contact.rods[0].share @ contact.rods[0].pressure[-1] for contact in result.contacts)
+    assert first * sin(left) == pytest.approx(second * sin(right), rel=1e-8)
+    np.testing.assert_allclose(sum(contact.force[-1] for contact in result.contacts), (0, 2 * c, 0), atol=1e-8)

@@ -196,8 +196,9 @@ def across_edge() -> HardContact:
     def scene() -> Scene:
         start = (0.0, RADIUS + TIGHT.g_0, -4.5e-3)
         rod = Rod.straight(length=4e-3, section=Section.ramie(), start=start, direction=(0.0, 0.0, 1.0))
-        groove = Contact(Groove(((-6e-3, 0.0), (-1.5e-3, 0.0), (-1.4e-3, -4e-3), (6e-3, -4e-3))), TIGHT)
-        return Scene([rod], [Clamp("start")], [PointForce((0.0, -1e-3, 0.0), at="end")], [groove])
+        groove = Groove(((-6e-3, 0.0), (-1.5e-3, 0.0), (-1.4e-3, -4e-3), (6e-3, -4e-3)))
+        walls = [Contact(face, TIGHT) for face in groove.faces()]
+        return Scene([rod], [Clamp("start")], [PointForce((0.0, -1e-3, 0.0), at="end")], walls)
 
     title = "Pulled down across a steep edge by 1 mN"
     return HardContact("edge", "polyline edges", title, scene, Beside(), elements=32, discrete=80, limit=1e-2)

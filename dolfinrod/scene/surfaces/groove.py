@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi, tan
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.quantity import UNIT, Vector, VectorLike, assign, direction, nonnegative, positive, vector
+from dolfinrod.scene.surfaces.faces import parts
 from dolfinrod.scene.surfaces.polyline import ROUND_OFF, points, refuse_axis
 from dolfinrod.scene.surfaces.profile import Profile
 from dolfinrod.scene.surfaces.sections import flanked, rounded
@@ -36,7 +37,7 @@ class Groove:
     The section lies in the plane of z = axis × up, to the right, and y along `up`: from the left to the right land the
     rods are above it. Its first and last flanks go on without end. φ is the distance to the nearest piece; around a lip
     the normal fans out and the curvature is 1/φ. In a sharp corner the normal jumps from one flank to the other, so
-    that a rod which touches both finds no equilibrium: a `fillet` wider than the rod, or two `Plane`s, hold it.
+    that a rod which touches both finds no equilibrium: a `fillet` wider than the rod, or a contact a face, holds it.
 
     With a `roller` the section goes around instead: y is the height above a roller whose axis, along z, is that far
     below `point`, and `axis` is the direction around it there.
@@ -124,17 +125,7 @@ class Groove:
     ) -> Groove:
         """An arc of a circle between lands at y = 0, under upright walls where it is deeper than its radius.
 
-        Args:
-            radius: Of the arc [m].
-            depth: Of the groove; None: as deep as its radius, half a circle [m].
-            point: This and what follows as `Groove`.
-            axis: Likewise.
-            up: Likewise.
-            roller: Likewise.
-            motion: Likewise.
-
-        Returns:
-            The groove.
+        Without a depth [m] it is as deep as its radius [m], half a circle; the rest as `Groove`.
         """
         profile, fillet = rounded(radius, depth)
         return cls(profile, point, axis, up, fillet, roller, motion)
@@ -195,6 +186,18 @@ class Groove:
         Its 15° are those between wall and normal here. Arguments as `Groove.v`.
         """
         return cls.v(beta_left, beta_right, half_width, depth, point, axis, up, fillet, roller, motion)
+
+    def faces(self) -> tuple[Groove, ...]:
+        """One surface for each part between re-entrant corners, so that each bears a rod by a force of its own.
+
+        The least of their distances is that of the groove wherever rods may be, but for the fillet, which is left out:
+        rods thicker than it do not reach it.
+
+        Raises:
+            SceneError: A part that cannot go on straight behind the others.
+        """
+        polylines = parts(np.asarray(self.profile), self.roller)
+        return tuple(replace(self, profile=polyline, fillet=0.0) for polyline in polylines)
 
     @cached_property
     def _section(self) -> Profile:

@@ -75,7 +75,7 @@ def refuse_crossings(start: Array, along: Array, size: Array, numbers: Numbers) 
     first, last = np.zeros(len(size)), size.copy()
     first[0], last[-1] = -np.inf, np.inf
     i, j = np.triu_indices(len(size), 2)
-    aslant = cross(along[i], along[j]) != 0.0
+    aslant = np.abs(cross(along[i], along[j])) > ROUND_OFF
     i, j = i[aslant], j[aslant]
     sine, apart = cross(along[i], along[j]), start[j] - start[i]
     s, u = cross(apart, along[j]) / sine, cross(apart, along[i]) / sine
@@ -100,8 +100,9 @@ def refuse_axis(polyline: Points, roller: float) -> None:
         if y <= -roller:
             message = f"must be above {-roller!r} m, where the axis of the roller is, got {y!r} m"
             raise SceneError(message, field=f"Groove.profile[{i}][1]")
-    for end, beside in ((0, 1), (-1, -2)):
-        if polyline[end][1] < polyline[beside][1]:
+    for end, beside, way in ((0, 1, -1.0), (-1, -2, 1.0)):
+        falls, leads = polyline[end][1] < polyline[beside][1], polyline[end][0] - polyline[beside][0]
+        if falls and way * leads > 0.0:
             message = (
                 "must not fall outwards at its ends, whose flanks would go on to the axis of the roller, got"
                 f" {polyline[end]} m beside {polyline[beside]} m"
