@@ -83,7 +83,7 @@ def wedged_force(result: Result) -> Array:
 def slope_case(phi: float, mu: float, words: str) -> ContactCase:
     """C5 in equilibrium: the slope on which a block slides, located by pushing it."""
     return ContactCase(
-        name=f"friction-threshold-{words}",
+        name=f"friction-threshold-{np.degrees(phi):.0f}",
         title=f"C5, threshold slope of a block, found {words}, μ = {mu:g}",
         family="friction",
         reference=exact("tan β = μ; a push along x of W tan(atan μ − φ)", "process.md 6.8", mu, mu),
@@ -159,7 +159,6 @@ def stop_case() -> ContactCase:
                 1.0,
                 (50, 100, 200),
                 limit=2e-2,
-                quick=True,
             )
             for stepper in BLOCKS
         ),
