@@ -6,11 +6,11 @@ stiffness of nodes in units of the model, for all contacts of a scene together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from discrete.pair import Pair
 from discrete.rotation import log, tangents
 from discrete.touched import Booking, Touched
 from discrete.unknowns import N_NODE, SPIN, X
@@ -22,40 +22,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from discrete.mesh import Mesh
-    from dolfinrod.scene import Contact, Scene
-    from dolfinrod.scene.reply import Reply
+    from dolfinrod.scene import Scene
 
     Array = NDArray[np.float64]
 
 __all__ = ["Contacts", "contacts_of"]
-
-
-@dataclass(eq=False)
-class _Pair:
-    """The nodes that one contact concerns.
-
-    Args:
-        contact: The surface and its laws.
-        mine: These nodes.
-        share: Length for which each stands, shape (n,) [m].
-        touch: What the surface does to them.
-    """
-
-    contact: Contact
-    mine: slice
-    share: Array
-    touch: Touch
-
-    def __post_init__(self) -> None:
-        self.rubs, self.turn = self.touch.turns, np.zeros((len(self.share), 3))
-        self.reply: Reply
-
-    def respond(self, x: Array, turns: Array) -> Reply:
-        """What acts at positions in SI units, rotation vectors over the step being known."""
-        if self.rubs:
-            self.turn = turns[self.mine]
-        self.reply = self.touch.respond(x[self.mine], self.turn)
-        return self.reply
 
 
 class Contacts:
@@ -70,14 +41,14 @@ class Contacts:
         self._mesh, self._units = mesh, mesh.units
         share = mesh.share * mesh.units.length
         radius = np.repeat([rod.section.radius or 0.0 for rod in scene.rods], np.diff(mesh.first))
-        self._pairs: list[_Pair] = []
+        self._pairs: list[Pair] = []
         self._seen: tuple[Array, Array] | None = None
         self._force: Array
         for contact in scene.contacts:
             a, b = (0, len(mesh.s)) if contact.rod is None else (contact.rod, contact.rod + 1)
             mine = slice(int(mesh.first[a]), int(mesh.first[b]))
             touch = Touch(contact, radius[mine], scene.motion.t_end)
-            self._pairs.append(_Pair(contact, mine, share[mine], touch))
+            self._pairs.append(Pair(contact, mine, share[mine], touch))
         self._rubs = any(pair.rubs for pair in self._pairs)
 
     def recall(self, arrays: Mapping[str, Array], x: Array, R: Array, t: float) -> None:
@@ -130,6 +101,17 @@ class Contacts:
         for pair in self._pairs:
             pair.touch.begin(t)
         self._goal, self._seen = t, None
+
+    def cling(self) -> None:
+        """Begin the iteration with what touched and stuck in the last state that counts."""
+        for pair in self._pairs:
+            pair.touch.cling()
+
+    def foresee(self, x: Array) -> bool:
+        """Whether a linear step to x changes what is pressed; the next answer is with that."""
+        self._seen = None
+        each = [pair.touch.foresee(self._in_space(x)[pair.mine]) for pair in self._pairs]
+        return any(each)
 
     def force(self, x: Array, R: Array) -> Array:
         """Forces and moments where the step has led.

@@ -185,6 +185,8 @@ class Equilibrium:
         N = force[:, X_J] + np.matmul(end, own[:, :, None])[:, :, 0]
         spin = chord_spin(state.u, own[:, X_J] - own[:, X_I] + gap, 0.5 * (own[:, SPIN_I] + own[:, SPIN_J]), e)
         new, turn, bite = self._moved(state, d, spin, N, goal)
+        if grip is not None and grip.foresees(new.x, turn):
+            return _Step(state, turn, turn, residual, worked_in)
         watch.see(bite * d[:, SPIN], new.R)
         scale = max(1.0, float(np.abs(new.F_n).max()))
         change = max(turn, float(np.abs(d[:, X]).max()), float(np.abs(new.F_n - state.F_n).max()) / scale)

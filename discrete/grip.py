@@ -30,11 +30,13 @@ if TYPE_CHECKING:
 __all__ = ["DEEP", "HALF_TURN", "MOST_RENEWALS", "ROLLED", "Grip", "gripped"]
 
 # Iterations after which walls are approached by way of softer ones: what touches then changes little by little.
-DIRECT = 12
+DIRECT = 20
 # Stiffness of the softest in EI/L⁴, against which a rod bends over a tenth of its length, and of each over the last.
 SOFTEST, STIFFER = 1e5, 100.0
 # Increments in L and radians at which a softer wall has told enough.
 ROUGH = 0.1
+# Trials in which it is found out what a step turning more than that presses, before anything moves.
+FORESIGHTS = 2
 # Renewals of multipliers after which they have failed.
 MOST_RENEWALS = 50
 DEEP = f"rods were deeper in a surface than its tolerance after {MOST_RENEWALS} renewals: its eps_N is too small"
@@ -62,7 +64,7 @@ class Grip:
 
     def __init__(self, contacts: Contacts) -> None:
         self._contacts, self._met, self._last = contacts, dict[bytes, int](), b""
-        self.circling = False
+        self.circling, self._foresights = False, 0
 
     def press(self, state: State) -> Array:
         """Forces and moments with which the next increments are found, shape (n_nodes, 7)."""
@@ -73,6 +75,14 @@ class Grip:
             self.circling = self._met[pattern] > MOST_RETURNS
         self._last = pattern
         return self._force
+
+    def foresees(self, x: Array, turn: float) -> bool:
+        """Whether so long a step presses other nodes than it was taken with: it is taken anew with these first."""
+        if turn <= ROUGH or self._foresights == FORESIGHTS or not self._contacts.foresee(x):
+            self._foresights = 0
+            return False
+        self._foresights += 1
+        return True
 
     def surprise(self, d: Array, state: State) -> float:
         """Largest difference of the forces in a state from what increments foretold, beyond round-off of positions."""
@@ -96,6 +106,7 @@ def gripped(contacts: Contacts, state: State, t: float, find: Find, most: int, f
         How it ended, all iterations counted.
     """
     contacts.begin(t)
+    contacts.cling()
     found = _pressed(contacts, state, find, most, fine)
     for _ in range(MOST_RENEWALS):
         if not found.converged or contacts.renew():
