@@ -144,7 +144,7 @@ class Workshop:
         level: LoadLevel,
         R: Array,
     ) -> Factors:
-        """Factorise.
+        """Factorise, and keep the factors as those at hand.
 
         Args:
             stiffness: Of the elements, shape (n, 13, 13).
@@ -156,16 +156,10 @@ class Workshop:
             level: Loads.
             R: Section frames, shape (3, 3, n_nodes).
 
-        Returns:
-            Also kept as those at hand.
-
         Raises:
             SingularTangentError: There are none.
         """
-        tangent = stiffness.copy()
-        at_j = slice(X_J.start, SPIN_J.stop)
-        tangent[:, :AXIAL, :AXIAL] += blocks[self._node_i]
-        tangent[self._ends, at_j, at_j] += blocks[self._last]
+        tangent = self._with_blocks(stiffness, blocks)
         scratch = missing.T.copy(), np.zeros_like(self._right)
         guides, frames = self._supports.guides, R.transpose(2, 0, 1)
         whole = self._system.tangent(tangent, *scratch, level, guides, frames, touched)
@@ -177,6 +171,13 @@ class Workshop:
         self.factors, self.made = Factors(dt, R, of_elements, *at_nodes, whole, whole.inverse()), self.made + 1
         self.wear.renew()
         return self.factors
+
+    def _with_blocks(self, stiffness: Array, blocks: Array) -> Array:
+        """Of the elements, with those of nodes at their first ones, and at the last ones of rods."""
+        tangent, at_j = stiffness.copy(), slice(X_J.start, SPIN_J.stop)
+        tangent[:, :AXIAL, :AXIAL] += blocks[self._node_i]
+        tangent[self._ends, at_j, at_j] += blocks[self._last]
+        return tangent
 
     def increments(self, factors: Factors, missing: Array, R: Array) -> Increments:
         """Increments of all nodes for what is out of balance, shape (7, n_nodes), at section frames R.

@@ -93,7 +93,7 @@ def _limit_before(right: Any, self: Touch, X: Array, turned: Array) -> Step:
 
 def _anchors_in_space(right: Any, self: Touch, X: Array, turned: Array) -> Step:
     """They do not turn with the wall."""
-    on_the_wall, self._u = self._u, self._u @ self._start.Q.T @ self._end.Q
+    on_the_wall, self._u = self._u, self._u @ self._pose(self._t_0).Q.T @ self._end.Q
     step: Step = right(self, X, turned)
     self._u = on_the_wall
     return step

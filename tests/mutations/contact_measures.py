@@ -82,7 +82,7 @@ def iterations(solve: Solve) -> float:
 
 def presses(solve: Solve) -> float:
     """Pressures of a hard drum, to which softer ones have led, less ε (g_0 − g), by their largest."""
-    c = _touching(solve(on.bent(1e8), elements=8))
+    c = _touching(solve(on.bent(1e8), elements=48))
     p = c.pressure[1:]
     return largest(p - np.maximum(-1e8 * c.gap[1:], 0.0)) / largest(p)
 
