@@ -9,7 +9,7 @@ from mpi4py import MPI
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import dolfinrod as dr
@@ -196,6 +196,7 @@ def test_going_on_from_a_result_is_going_on(kinematics):
     assert slip[-1].max() > slip[4].max() > 0.0
 
 
+@settings(max_examples=20)
 @given(seed=st.integers(0, 2**32 - 1))
 @pytest.mark.parametrize("rods", [PlanarRods(), SpatialRods()], ids=["planar", "spatial"])
 @pytest.mark.serial

@@ -6,7 +6,7 @@ from math import exp, log, pi, radians
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import simpson, solve_ivp
 
@@ -60,12 +60,14 @@ def test_thin_rope_holds_less_by_its_thickness(mu, angle):
     assert lost == pytest.approx(ε * (1.0 + mu**2), rel=1e-3)
 
 
+@settings(max_examples=20)
 @given(mu=frictions, hung=st.floats(0.5, 20.0))
 def test_heavy_rope_obeys_the_balance_of_its_pieces(mu, hung):
     found = solve_ivp(lambda φ, T: mu * (T + np.sin(φ)) + np.cos(φ), (0.0, pi), [hung], rtol=1e-11, atol=1e-12)
     assert found.y[0, -1] == pytest.approx(heavy(mu, hung), rel=1e-8)
 
 
+@settings(max_examples=20)
 @given(mu=frictions, angle=angles, part=st.floats(0.05, 0.95))
 def test_string_slips_as_its_tension_says(mu, angle, part):
     """The ways are those of the strains; and a loop that is closed loses what its area says."""
@@ -114,6 +116,7 @@ def test_discrete_rope_holds_as_much_as_a_polygon():
     assert held == pytest.approx(np.full(2, polygon(0.3, wrap.angle, 16)), rel=1e-5)
 
 
+@pytest.mark.slow
 @BOTH
 def test_thick_rope_holds_less(model, elements):
     thin, fat = (Wrap(0.3, 180.0, epsilon=ε) for ε in (1e-6, 1e-3))

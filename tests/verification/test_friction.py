@@ -7,7 +7,7 @@ from math import atan, cos, pi, radians, sin
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dolfinrod.scene import Contact, Coulomb, CreepingCoulomb, Penalty, Plane, Touch
@@ -74,6 +74,7 @@ def one_point(law_friction, x: float) -> Touch:
     return touch
 
 
+@settings(max_examples=20)
 @given(mu=frictions, part=st.floats(0.01, 0.99))
 def test_a_point_that_sticks_never_creeps(mu, part):
     """Pulled to and fro below the limit, its anchor stays: slip is zero to the last digit."""
@@ -128,6 +129,7 @@ def test_what_has_settled_slips_no_more(stepper):
     assert v[-1] == pytest.approx(creep(1e-3, 0.64, cos(radians(15.0)), sin(radians(15.0))), rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["impact-drop", "impact-oblique"])
 def test_restitution_tends_to_one_with_the_order_of_the_scheme(name):
     case = CASES[name]
