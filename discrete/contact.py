@@ -14,7 +14,7 @@ from discrete.pair import Pair
 from discrete.rotation import log, tangents
 from discrete.touched import Booking, Touched
 from discrete.unknowns import N_NODE, SPIN, X
-from dolfinrod.scene import Touch
+from dolfinrod.scene import Dynamic, Touch
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,7 +47,8 @@ class Contacts:
         for contact in scene.contacts:
             a, b = (0, len(mesh.s)) if contact.rod is None else (contact.rod, contact.rod + 1)
             mine = slice(int(mesh.first[a]), int(mesh.first[b]))
-            touch = Touch(contact, radius[mine], scene.motion.t_end)
+            inert = isinstance(scene.motion, Dynamic)
+            touch = Touch(contact, radius[mine], scene.motion.t_end, inert=inert)
             self._pairs.append(Pair(contact, mine, share[mine], touch))
         self._rubs = any(pair.rubs for pair in self._pairs)
 
@@ -198,6 +199,11 @@ class Contacts:
         done = [pair.touch.renew() for pair in self._pairs]
         self._seen = self._seen if all(done) else None
         return all(done)
+
+    @property
+    def forced(self) -> bool:
+        """Whether the last answer kept any node from sliding that cannot stick."""
+        return any(pair.touch.forced for pair in self._pairs)
 
     @property
     def pierced(self) -> bool:

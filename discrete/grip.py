@@ -86,7 +86,10 @@ class Grip:
 
     def surprise(self, d: Array, state: State) -> float:
         """Largest difference of the forces in a state from what increments foretold, beyond round-off of positions."""
+        was_forced = self._contacts.forced
         force, foretold = self._contacts.force(state.x, state.R), self._force + self.touched.change(d)
+        if was_forced or self._contacts.forced:
+            return 1.0
         blurred = ROUND_OFF * self._reach * self.touched.stiffest
         return max(0.0, float(np.abs(force - foretold).max()) - blurred)
 

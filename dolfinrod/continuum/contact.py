@@ -16,7 +16,7 @@ from dolfinrod.continuum import backend
 from dolfinrod.continuum.lumped import node_lengths
 from dolfinrod.continuum.rubbing import rubs
 from dolfinrod.continuum.touched import COLUMNS, packed, unpacked
-from dolfinrod.scene import Touch
+from dolfinrod.scene import Dynamic, Touch
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -58,7 +58,7 @@ class Contacts:
 
     def __init__(self, problem: Problem, level: float = 1.0) -> None:
         self._problem, self._rubs = problem, rubs(problem.scene)
-        d, scene = problem.discretization, problem.scene
+        d, scene, inert = problem.discretization, problem.scene, isinstance(problem.scene.motion, Dynamic)
         self.r, self.q = d.owned_nodes("r"), d.owned_nodes("q")
         first = self.r[:, 0]
         lengths = node_lengths(problem)[first] * problem.placement.length
@@ -68,7 +68,7 @@ class Contacts:
         self._sides = []
         for contact in scene.contacts:
             nodes = np.flatnonzero(rod == contact.rod) if contact.rod is not None else np.arange(len(rod))
-            touch = Touch(contact, radii[rod[nodes]], scene.motion.t_end, level)
+            touch = Touch(contact, radii[rod[nodes]], scene.motion.t_end, level, inert=inert)
             self._sides.append(_Side(touch, nodes, lengths[nodes]))
         self.place(0.0)
 

@@ -14,6 +14,9 @@ __all__ = ["Pressed", "Rubbing", "Step", "cross", "rubbed", "skew", "slip_gradie
 
 Array = NDArray[np.float64]
 
+# Of a traction, against its limit.
+ROUND_OFF = 1e-12
+
 
 @dataclass(frozen=True, eq=False)
 class Pressed:
@@ -50,6 +53,7 @@ class Rubbing:
         slipped: Way of the anchors in the step under pressure, shape (n,) [m].
         u: Displacement from where the anchors were, shape (n, 3) [m].
         slides: Whether the anchors moved, shape (n,).
+        forced: Whether any was kept from it, which no equilibrium does.
     """
 
     traction: Array
@@ -57,6 +61,7 @@ class Rubbing:
     slipped: Array
     u: Array
     slides: NDArray[np.bool_]
+    forced: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +93,11 @@ class Step:
     rubbing: Rubbing | None
 
 
-def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: NDArray[np.bool_]) -> Rubbing:
+def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: NDArray[np.bool_], slid: Array) -> Rubbing:
     """Return mapping: the anchors follow where they would pull harder than μ p.
+
+    In an iteration a point that slid one way does not slide back before it was seen what it does if it sticks: between
+    the two ways the slope of sliding, which is none, tells Newton's method nothing.
 
     Args:
         pressed: The points.
@@ -97,16 +105,18 @@ def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: NDArray[n
         μ: Coefficient of friction.
         ε_T: Stiffness of the anchors [N/m²].
         clings: Points whose anchors stay however hard they pull, shape (n,).
+        slid: u in the last answer of those that slid, zero for others, shape (n, 3) [m].
 
     Returns:
         Tractions and where the anchors are.
     """
     u = v - np.einsum("ni,ni->n", v, pressed.n)[:, None] * pressed.n
     far, reach = np.sqrt(np.einsum("ni,ni->n", u, u)), μ * np.maximum(pressed.p, 0.0) / ε_T
-    slides = (far > reach) & ~clings
+    slides = (far > reach) & ~clings & (np.einsum("ni,ni->n", u, slid) >= 0.0)
+    forced = bool(((far > reach * (1.0 + ROUND_OFF)) & ~slides).any())
     held = np.where(slides, reach / np.where(slides, far, 1.0), 1.0)
     anchored = held[:, None] * u
-    return Rubbing(-ε_T * anchored, anchored, np.where(slides & (pressed.p > 0.0), far - reach, 0.0), u, slides)
+    return Rubbing(-ε_T * anchored, anchored, np.where(slides & (pressed.p > 0.0), far - reach, 0.0), u, slides, forced)
 
 
 def traction_gradient(pressed: Pressed, rubbing: Rubbing, u_q: Array, μ: float, ε_T: float) -> Array:

@@ -37,20 +37,20 @@ class Touch:
         radius: Of the rod at each point, shape (n,) [m].
         t_end: Where the time of the scene ends.
         level: Where in a step forces act: 1 at its end, ½ in the middle.
+        inert: Whether the rods have inertia: then what slid one way in an answer halts before it slides back.
     """
 
-    def __init__(self, contact: Contact, radius: Array, t_end: float, level: float = 1.0) -> None:
-        self.contact, self._radius, self._t_end, self._level = contact, radius, t_end, level
+    def __init__(
+        self, contact: Contact, radius: Array, t_end: float, level: float = 1.0, *, inert: bool = False
+    ) -> None:
+        self.contact, self._radius, self._t_end, self._level, self._inert = contact, radius, t_end, level, inert
         self._friction, self._pressing = contact.friction, Pressing(contact.law, radius)
         anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
         self._stiffness = contact.law.eps_N if anchors is None else anchors
         self._ε_T = self._stiffness
-        self.changed = False
-
-    @property
-    def turns(self) -> bool:
-        """Whether what acts, and its moment, depends on how the sections turn."""
-        return isinstance(self._friction, Coulomb)
+        self.changed = self.forced = False
+        # Whether what acts, and its moment, depends on how the sections turn.
+        self.turns = isinstance(self._friction, Coulomb)
 
     def place(self, x: Array, t: float) -> None:
         """The rods are at x; nothing is remembered."""
@@ -65,7 +65,7 @@ class Touch:
         """A step from where the rods were last accepted leads to time t."""
         self._λ = self._λ_0.copy()
         self._pressing.begin()
-        self._clings = np.zeros(len(self._radius), dtype=bool)
+        self._clings, self._slid = np.zeros(len(self._radius), dtype=bool), np.zeros((len(self._radius), 3))
         self._ε_T = self._stiffness
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
         unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
@@ -74,10 +74,8 @@ class Touch:
         # Where the rods were placed nothing moves yet.
         self._t, self._rate = t, 1.0 / dt if dt > 0.0 else 0.0
         self._end, self._acting = self._pose(t), self._pose(self._t_0 + self._level * dt)
-        motion = self.contact.surface.motion
-        self._wall_turn = (
-            np.zeros(3) if motion is None else motion.turn(t, self._t_end) - motion.turn(self._t_0, self._t_end)
-        )
+        motion, end = self.contact.surface.motion, self._t_end
+        self._wall_turn = np.zeros(3) if motion is None else motion.turn(t, end) - motion.turn(self._t_0, end)
 
     def _pose(self, t: float) -> Pose:
         motion = self.contact.surface.motion
@@ -108,7 +106,8 @@ class Touch:
         elif isinstance(self._friction, CreepingCoulomb) and len(on):
             v, speed = self._velocity(x[on])
             traction[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
-        self.changed = not np.array_equal(state, self._state)
+        self.forced = step.rubbing is not None and step.rubbing.forced
+        self.changed = self.forced or not np.array_equal(state, self._state)
         self._state, self._x, self._turn = state, x.copy(), turn.copy()
         self._clings = np.zeros(n, dtype=bool)
         self._reply = Reply(step.gap, pressure, normal, traction, moment, state)
@@ -137,7 +136,9 @@ class Touch:
         share = np.where(far, np.clip((self._pressing.law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
         w = (X - self._X_0)[on] - pressed.radius[:, None] * cross(turned[on], pressed.n)
         v = self._u[on] + share[:, None] * w
-        rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on])
+        rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on], self._slid[on])
+        self._slid[:] = 0.0
+        self._slid[on] = np.where(rubbing.slides[:, None], rubbing.u, 0.0) * self._inert
         return Step(X, turned, gap, at_end, on, pressed, share, w, v, rubbing)
 
     def _velocity(self, x: Array) -> tuple[Array, Array]:

@@ -131,7 +131,10 @@ def test_a_rod_slides_with_what_friction_leaves(kinematics, scheme, mu):
 
 @both_schemes
 def test_a_wall_that_starts_moving_takes_a_rod_along(scheme):
-    """C9: at speed v after v ρA/(μ q); of the work of the wall, half moves the rod, half is rubbed off."""
+    """C9: at speed v after v ρA/(μ q); of the work of the wall, half moves the rod, half is rubbed off.
+
+    Backward Euler takes the velocity at the end of a step for that of the step, and slips less by one of them.
+    """
     mu, q, v = 0.5, 20.0, 0.3
     t = v / (mu * q)
     motion = dr.Dynamic(2.0 * t, t / 20, scheme)
@@ -142,7 +145,8 @@ def test_a_wall_that_starts_moving_takes_a_rod_along(scheme):
     assert speed[-1] == pytest.approx(v, rel=1e-2)
     e = result.energy
     assert e["wall work"][-1] == pytest.approx(v**2, rel=0.05)
-    assert e["friction"][-1] == pytest.approx(-0.5 * v**2, rel=0.05)
+    rubbed = 0.5 * v**2 * (1.0 - 1.0 / 20 if isinstance(scheme, dr.ImplicitEuler) else 1.0)
+    assert e["friction"][-1] == pytest.approx(-rubbed, rel=0.02)
     assert unclosed(result) <= 1e-8
 
 

@@ -88,7 +88,9 @@ def _limit_before(right: Any, self: Touch, X: Array, turned: Array) -> Step:
         return step
     p = self._pressing.law.pressure(self._gap_0, self._λ_0)[0][step.on]
     before = replace(step.pressed, p=p)
-    return replace(step, rubbing=rubbed(before, step.v, self._friction.mu, self._ε_T, self._clings[step.on]))
+    return replace(
+        step, rubbing=rubbed(before, step.v, self._friction.mu, self._ε_T, self._clings[step.on], self._slid[step.on])
+    )
 
 
 def _anchors_in_space(right: Any, self: Touch, X: Array, turned: Array) -> Step:
