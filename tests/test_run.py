@@ -158,9 +158,9 @@ def test_failed_set_up_is_tried_again(machine):
     ("arguments", "asked"),
     [
         (["report", "--quick"], "-m verification --quick"),
-        (["test", "-k", "elastica"], "-m pytest -k elastica"),
+        (["test", "-k", "elastica"], "-m pytest --numprocesses=auto --maxprocesses=4 -k elastica"),
         (["report", "elastica*", "--out", "there"], "-m verification elastica* --out there"),
-        (["test", "--all", "-x"], "-m pytest -m  -x"),
+        (["test", "--all", "-x"], "-m pytest --numprocesses=auto --maxprocesses=4 -m  -x"),
     ],
 )
 def test_commands_go_to_the_python_of_the_virtual_environment(machine, arguments, asked):
