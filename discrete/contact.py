@@ -110,9 +110,13 @@ class Contacts:
 
     def foresee(self, x: Array) -> bool:
         """Whether a linear step to x changes what is pressed; the next answer is with that."""
-        self._seen = None
         each = [pair.touch.foresee(self._in_space(x)[pair.mine]) for pair in self._pairs]
-        return any(each)
+        if not any(each):
+            return False
+        self._seen = None
+        for pair in self._pairs:
+            pair.touch.adopt()
+        return True
 
     def force(self, x: Array, R: Array) -> Array:
         """Forces and moments where the step has led.

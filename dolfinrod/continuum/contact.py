@@ -74,9 +74,8 @@ class Contacts:
 
     def place(self, t: float) -> None:
         """The rods are where the state has them; nothing is remembered."""
-        self.t = t
         x = self._problem.placement.to_space(self._problem.x[self.r])
-        self._q_0 = self._problem.x[self.q]
+        self.t, self._q_0 = t, self._problem.x[self.q]
         for side in self._sides:
             side.touch.place(x[side.nodes], t)
         self._seen: Array | None = None
@@ -185,8 +184,11 @@ class Contacts:
     def foresee(self, r: Array) -> bool:
         """Whether a linear step of the rank's own nodes to r changes what is pressed; the next answer is with that."""
         each = [side.touch.foresee(self._problem.placement.to_space(r[side.nodes])) for side in self._sides]
+        changed = self._on_any_rank(any(each))
+        for side in self._sides if changed else ():
+            side.touch.adopt()
         self._seen = None
-        return self._on_any_rank(any(each))
+        return changed
 
     def renew(self) -> bool:
         """Renew multipliers; whether penetrations were within their tolerances already."""
@@ -223,13 +225,11 @@ class Contacts:
 
     def kept(self) -> Array:
         """What the nodes remember and feel, by local cell, shape (cells, k + 1, contacts · n_columns)."""
-        d = self._problem.discretization
-        n = sum(COLUMNS.values())
+        d, n = self._problem.discretization, sum(COLUMNS.values())
         table = np.zeros((len(self.r), len(self._sides) * n))
         for k, side in enumerate(self._sides):
             table[side.nodes, k * n : (k + 1) * n] = packed(self.t, side.touch.memory(), side.reply)
-        carrier = backend.function(d.space)
-        by_cell = []
+        carrier, by_cell = backend.function(d.space), []
         for column in table.T:
             carrier.x.array[self.r[:, 0]] = column
             carrier.x.scatter_forward()

@@ -64,7 +64,7 @@ class Pressing:
         """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
         self.law = self._full if by == self._firm else self._full.softened(by / self._firm)
         self._led: tuple[Flags, Array, Array, Array] | None = None
-        self._foreseen: Flags | None = None
+        self._foreseen: tuple[Flags, Array] | None = None
 
     def at(self, X: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:
         """Pressures at the end of a step.
@@ -80,8 +80,7 @@ class Pressing:
         p, slope = self.law.pressure(gap, λ)
         expected, pressed = p, p > 0.0
         if self._foreseen is not None:
-            pressed, self._foreseen = self._foreseen, None
-            expected = np.maximum(p, 0.0)
+            (pressed, expected), self._foreseen = self._foreseen, None
         elif self._led is None:
             pressed = pressed | self._kept
         else:
@@ -104,7 +103,7 @@ class Pressing:
         return (*self._grazing(p, slope, p > 0.0, gap), p)
 
     def foresee(self, X: Array, gap: Array, normal: Array) -> bool:
-        """Whether a linear step to X presses other points than it was taken with; they are those of the next answer.
+        """Whether a linear step to X presses other points than it was taken with; `adopt` takes it anew with them.
 
         Args:
             X: Where the step leads, shape (n, 3) [m].
@@ -116,11 +115,12 @@ class Pressing:
         way = X - X_0
         hoped = p_0 + np.einsum("ni,ni->n", p_X, way)
         ahead = gap + np.einsum("ni,ni->n", normal, way) < self.law.g_0
-        pressed = np.where(was, hoped > 0.0, ahead)
-        if np.array_equal(pressed, was):
-            return False
-        self._foreseen, self._led = pressed, None
-        return True
+        self._ahead = np.where(was, hoped > 0.0, ahead), np.where(was, np.maximum(p_0, 0.0), 0.0)
+        return not np.array_equal(self._ahead[0], was)
+
+    def adopt(self) -> None:
+        """Let the points that were foreseen be those of the next answer, at the same place."""
+        self._foreseen, self._led = self._ahead, None
 
     def enough(self, p: Array, gap: Array) -> bool:
         """Whether multipliers need no renewal; where the last one did little, the law is made firmer for good.

@@ -45,11 +45,11 @@ class Touch:
     ) -> None:
         self.contact, self._radius, self._t_end, self._level, self._inert = contact, radius, t_end, level, inert
         self._friction, self._pressing = contact.friction, Pressing(contact.law, radius)
+        self.adopt = self._pressing.adopt
         anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
         self._stiffness = contact.law.eps_N if anchors is None else anchors
         self._ε_T = self._stiffness
         self.changed = self.forced = False
-        # Whether what acts, and its moment, depends on how the sections turn.
         self.turns = isinstance(self._friction, Coulomb)
 
     def place(self, x: Array, t: float) -> None:
@@ -70,9 +70,9 @@ class Touch:
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
         unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
         self._afar = unloaded & (self._gap_0 - self._pressing.law.g_0 > GRAZING * self._radius)
-        dt = t - self._t_0
         # Where the rods were placed nothing moves yet.
-        self._t, self._rate = t, 1.0 / dt if dt > 0.0 else 0.0
+        self._t, dt = t, t - self._t_0
+        self._rate = 1.0 / dt if dt > 0.0 else 0.0
         self._end, self._acting = self._pose(t), self._pose(self._t_0 + self._level * dt)
         motion, end = self.contact.surface.motion, self._t_end
         self._wall_turn = np.zeros(3) if motion is None else motion.turn(t, end) - motion.turn(self._t_0, end)
@@ -184,7 +184,7 @@ class Touch:
         self._clings = self._pressing.cling(self._state_0 > OPEN, self._gap_0) & (self._state_0 != SLIDES)
 
     def foresee(self, x: Array) -> bool:
-        """Whether a linear step to x presses other points than it was taken with; then these are in the next answer."""
+        """Whether a linear step to x presses other points than it was taken with: `adopt` lets them be pressed here."""
         return self._pressing.foresee(self._end.back(x), self._step.gap, self._step.normal)
 
     def soften(self, by: float) -> None:
@@ -195,8 +195,7 @@ class Touch:
     def renew(self) -> bool:
         """Give the multipliers what has just acted; whether that was within the tolerance of the law already."""
         done = self._pressing.enough(self._reply.pressure, self._reply.gap)
-        if not done:
-            self._λ = self._reply.pressure.copy()
+        self._λ = self._λ if done else self._reply.pressure.copy()
         return done
 
     def pierces(self) -> bool:
