@@ -88,7 +88,7 @@ def scattered(seed: int, surface: Surface, n: int) -> Array:
     return np.asarray(surface.point) + np.random.default_rng(seed).uniform(-2.5, 2.5, (n, 3))
 
 
-def close(a: Closest, b: Closest, tolerance: float = ROUND_OFF) -> None:
+def assert_close(a: Closest, b: Closest, tolerance: float = ROUND_OFF) -> None:
     for name in ("distance", "normal", "curvature"):
         np.testing.assert_allclose(getattr(a, name), getattr(b, name), atol=tolerance, rtol=tolerance)
 
@@ -237,9 +237,9 @@ def test_a_lateral_groove_with_equal_flanks_is_an_intermediate_one(β: float, ha
 def test_a_flat_groove_is_a_plane_and_around_a_roller_a_cylinder(places: Array, pose: Pose) -> None:
     x, flat = pose.origin + places @ pose.Q.T, dr.Groove([(-1, 0), (0, 0), (2, 0)])
     plane = dr.Plane(pose.placed((0, 0, 0)), pose.turned((0, 1, 0)))
-    close(at(flat, pose, None).closest(x), plane.closest(x))
+    assert_close(at(flat, pose, None).closest(x), plane.closest(x))
     roller = dr.Cylinder(pose.placed((0, -5, 0)), pose.turned((0, 0, 1)), 5.0)
-    close(at(flat, pose, 5.0).closest(x), roller.closest(x))
+    assert_close(at(flat, pose, 5.0).closest(x), roller.closest(x))
 
 
 @few
@@ -267,7 +267,7 @@ def test_a_round_groove_is_a_cylinder_from_within(radius: float, depth: float, p
     tube = dr.Cylinder((0, radius - depth, 0), (1, 0, 0), radius, side="inside")
     half = np.arccos(max(0.0, 1.0 - depth / radius))
     x = np.array([[0.3, radius - depth, 0.0]]) + height * radius * np.array([[0, -cos(part * half), sin(part * half)]])
-    close(groove.closest(x), tube.closest(x), 1e-10)
+    assert_close(groove.closest(x), tube.closest(x), 1e-10)
 
 
 @pytest.mark.parametrize(
@@ -338,7 +338,7 @@ def test_axes_lips_and_centres_have_a_normal(surface: Surface) -> None:
 @given(places=places, roller=rollers())
 def test_points_on_straight_flanks_change_nothing(places: Array, roller: float | None) -> None:
     few_points, more = [(-2, 0), (-1, 0), (0, -1), (3, 2)], [(-2, 0), (-1.5, 0), (-1, 0), (0, -1), (1, 0), (3, 2)]
-    close(*(dr.Groove(points, fillet=0.2, roller=roller).closest(places) for points in (few_points, more)))
+    assert_close(*(dr.Groove(points, fillet=0.2, roller=roller).closest(places) for points in (few_points, more)))
 
 
 @pytest.mark.parametrize(
