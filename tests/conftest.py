@@ -14,6 +14,8 @@ import pytest
 if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
 
+TESTS = Path(__file__).parent
+
 
 def world() -> Intracomm | None:
     """World communicator where mpi4py is loaded (`python -m mpi4py` loads it), else None: no test must load it."""
@@ -36,6 +38,14 @@ def pytest_configure(config: pytest.Config) -> None:
     hypothesis.settings.load_profile("same on every rank")
     if not speaks():
         config.option.verbose = -2
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Scenes and the discrete model know nothing of ranks: on several, each would only do the same work again."""
+    for item in items:
+        if item.path.is_relative_to(TESTS / "scene") or item.path.is_relative_to(TESTS / "discrete"):
+            item.add_marker(pytest.mark.serial)
 
 
 def pytest_unconfigure() -> None:
