@@ -258,6 +258,23 @@ def test_verify_reports_what_was_asked_for_and_goes_on_where_it_was(dolfinrod, t
 
 
 @pytest.mark.serial
+@pytest.mark.slow
+def test_verify_with_two_jobs_finds_the_same(dolfinrod, tmp_path):
+    words = ("verify", "elastica-1", "--quick", "--out", tmp_path, "--jobs", "2")
+    done = dolfinrod(*words)
+    assert done.code == 0
+    first = errors_in(tmp_path)
+    assert "results reused" not in done.err
+    assert "results reused" in dolfinrod(*words).err
+    assert dolfinrod(*words[:-2], "--fresh").code == 0
+    assert errors_in(tmp_path) == first
+
+
+def errors_in(folder):
+    studies = json.loads((folder / "report.json").read_text())["studies"]
+    return [(study["model"], [record["error"] for record in study["records"]]) for study in studies]
+
+
 def test_verify_lists_names_and_solves_nothing(dolfinrod, tmp_path):
     done = dolfinrod("verify", "--list", "roll*", "--out", tmp_path / "out")
     assert done.code == 0

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,7 +54,15 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help="fewer meshes, degrees and repetitions")
     parser.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="default: %(default)s")
     parser.add_argument("--fresh", action="store_true", help="do again what an earlier run has finished")
+    parser.add_argument("--jobs", type=_jobs, default=1, metavar="N", help="units at once; times are best with 1")
     parser.add_argument("--list", action="store_true", help="names and titles, nothing is solved")
+
+
+def _jobs(text: str) -> int:
+    """A number of processes."""
+    if not (text.isdecimal() and int(text) > 0):
+        raise ArgumentTypeError(f"must be a positive whole number, got {text}")
+    return int(text)
 
 
 def verify(options: Namespace) -> int:
@@ -95,6 +104,7 @@ def listed(options: Namespace) -> int:
 
 def reported(options: Namespace) -> int:
     """Do what is not yet done, write the page and print its path."""
+    from verification.atonce import at_once
     from verification.interrupt import Interrupt
     from verification.ledger import Ledger
     from verification.machine import this_machine
@@ -110,7 +120,13 @@ def reported(options: Namespace) -> int:
     progress = Progress(sys.stderr, len(units))
     try:
         with Interrupt() as interrupt:
-            rows = work_off(units, Ledger(folder, machine, fresh=options.fresh), progress, interrupt)
+            ledger = Ledger(folder, machine, fresh=options.fresh)
+            if options.jobs > 1:
+                at_once(partial(plan, names, quick=options.quick), ledger, options.jobs, progress)
+                interrupt.check()
+                rows = work_off(units, ledger, interrupt=interrupt)
+            else:
+                rows = work_off(units, ledger, progress, interrupt)
     except KeyboardInterrupt:
         progress.clear()
         finished = f"{progress.done} of {len(units)} finished and kept in {folder}{os.sep}"

@@ -103,7 +103,7 @@ class Ledger:
     """
 
     def __init__(self, folder: Path, machine: Machine, *, fresh: bool = False) -> None:
-        self._fresh = fresh
+        self._fresh, self._trusted = fresh, set[Path]()
         facts = (machine.processor, machine.cores, machine.threads, machine.system, sorted(machine.versions.items()))
         self._folder = folder / name_of([*facts, source_hash()])
         self._folder.mkdir(parents=True, exist_ok=True)
@@ -116,13 +116,17 @@ class Ledger:
 
         A file that cannot be read as such a record counts as none.
         """
-        if self._fresh:
+        if self._fresh and self._place(unit) not in self._trusted:
             return None
         try:
             found = decode(json.loads(self._place(unit).read_text(encoding="utf-8"))["rows"])
         except (OSError, ValueError, KeyError, TypeError):
             return None
         return found if isinstance(found, tuple) else None
+
+    def trust(self, unit: Unit) -> None:
+        """Recall this unit even where all others are done afresh: it was kept by a process of this run."""
+        self._trusted.add(self._place(unit))
 
     def keep(self, unit: Unit, rows: tuple[Row, ...]) -> None:
         """Write the rows of a unit, whole or not at all."""

@@ -1,0 +1,78 @@
+"""Units of work on several cores: processes that take the next one until none is left.
+
+A unit that none of them finishes is left to the caller, who then sees why.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from multiprocessing.connection import Connection, wait
+from typing import TYPE_CHECKING
+
+from verification.interrupt import Interrupt
+
+if TYPE_CHECKING:
+    from multiprocessing.sharedctypes import Synchronized
+
+    from verification.ledger import Ledger, Unit
+
+__all__ = ["at_once"]
+
+
+def at_once(
+    plan: Callable[[], Sequence[Unit]], ledger: Ledger, jobs: int, note: Callable[[int, Unit, bool], None]
+) -> None:
+    """Do units that are not yet done, several at once; the ledger has them then.
+
+    Args:
+        plan: All of them, the same in every process, to which it is sent by name.
+        ledger: Where finished ones are kept.
+        jobs: How many at once.
+        note: Told, as each unit is finished, how many were before it, the unit, and whether it is recalled.
+    """
+    # Forked ones would share the MPI that this process has begun.
+    context = multiprocessing.get_context("spawn")
+    units, taken, workers, readers = plan(), context.Value("i", 0), [], []
+    for _ in range(jobs):
+        reader, writer = context.Pipe(duplex=False)
+        workers.append(context.Process(target=_work, args=(plan, ledger, taken, writer)))
+        workers[-1].start()
+        writer.close()
+        readers.append(reader)
+    done = 0
+    try:
+        while readers:
+            ready = wait(readers)
+            for reader in [reader for reader in readers if reader in ready]:
+                try:
+                    k, recalled = reader.recv()
+                except EOFError:
+                    readers.remove(reader)
+                    continue
+                note(done, units[k], recalled)
+                ledger.trust(units[k])
+                done += 1
+    finally:
+        for worker in workers:
+            worker.terminate()
+            worker.join()
+
+
+def _work(plan: Callable[[], Sequence[Unit]], ledger: Ledger, taken: Synchronized[int], writer: Connection) -> None:
+    """Take units and keep what they find; Ctrl-C ends it."""
+    with suppress(KeyboardInterrupt), Interrupt() as interrupt:
+        units = plan()
+        while True:
+            with taken.get_lock():
+                k = taken.value
+                taken.value += 1
+            if k >= len(units):
+                return
+            rows = ledger.recall(units[k])
+            if rows is None:
+                found = units[k].work()
+                interrupt.check()
+                ledger.keep(units[k], found if isinstance(found, tuple) else (found,))
+            writer.send((k, rows is not None))
