@@ -220,7 +220,7 @@ def _begin(method: Equilibrium, scene: Scene, start: Result | None) -> Path[Stat
             state.R[section.node] = section.frame(state.factors)
         if start.scene == scene and start.t[-1] < scene.motion.t_end:
             t = float(start.t[-1])
-    met = start is not None and start.scene.contacts == scene.contacts
+    met = start is not None and start.scene.walls == scene.walls
     method.place(state, t, start.state if start is not None and met else {})
     path = Path(state)
     path.kept.append(method.snapshot(state, t))

@@ -36,7 +36,7 @@ def contact_histories(scene: Scene, mesh: Mesh, path: Sequence[Array]) -> tuple[
     if not path:
         return ()
     felt, behind, histories = np.stack(path), 0, []
-    for contact in scene.contacts:
+    for contact in scene.walls:
         rods: list[Touching | None] = [None] * len(scene.rods)
         for k in range(len(scene.rods)) if contact.rod is None else (contact.rod,):
             n = len(mesh.s[k])

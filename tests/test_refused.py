@@ -220,6 +220,18 @@ MISTAKES = [
         "contacts[0].rod must be below 1, the number of rods, got 1",
     ),
     contact_row(
+        "a rod that is none touches rods",
+        lambda: dr.Scene([FIBRE], [CLAMP], contacts=[dr.RodContact(rods=[0, 1])]),
+        "rods = { rods = [0, 1] }",
+        "contacts[0].rods[1] must be below 1, the number of rods, got 1",
+    ),
+    contact_row(
+        "a rod is to touch itself twice",
+        lambda: dr.RodContact(rods=[0, 0]),
+        "rods = { rods = [0, 0] }",
+        "rods must be numbers of rods, each named once, got [0, 0]",
+    ),
+    contact_row(
         "creep at rest",
         touching(friction=dr.CreepingCoulomb(0.3, 1e-3)),
         'plane = {}\nfriction.creeping_coulomb = { mu = 0.3, v_0 = "1 mm/s" }',
@@ -252,8 +264,8 @@ IN_FILES = [
     ("[[rods]]", "[section.ramie.circle]\n[[rods]]", "Cannot declare ('section', 'ramie', 'circle') twice"),
     (FORCE_TEXT, f"{FORCE_TEXT}\n{FORCE_TEXT}", "a scene must be a TOML file: Cannot overwrite a value"),
     (FORCE_TEXT, f"{FORCE_TEXT}\ngravity = {{ g = [0, 0, 1] }}", "loads[0] must be one of point_force, "),
-    (MOTION_TEXT, "[[contacts]]\nplain = {}", "contacts[0].plain is unknown; known are plane, cylinder, groove, law, "),
-    (MOTION_TEXT, "[[contacts]]\nlaw = 'tight'", "contacts[0] must be one of plane, cylinder, groove, got none"),
+    (MOTION_TEXT, "[[contacts]]\nplain = {}", "contacts[0].plain is unknown; known are plane, cylinder, groove, rods,"),
+    (MOTION_TEXT, "[[contacts]]\nlaw = 'tight'", "contacts[0] must be one of plane, cylinder, groove, rods, got none"),
     (
         MOTION_TEXT,
         "[[contacts]]\nplane = {}\nlaw = 'soft'",

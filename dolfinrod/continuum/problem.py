@@ -74,7 +74,7 @@ class Problem:
         self.hold(np.zeros(0, dtype=np.int32))
         self._point_terms = point_terms(scene, self.kinematics, placement, self._locate_owned)
         self.line_loads = list(zip(self._line_histories, discretization.line_loads(self._line_fields), strict=True))
-        self.contacts = Contacts(self, self.level) if scene.contacts else None
+        self.contacts = Contacts(self, self.level) if scene.walls else None
         self.terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads), *contact_terms(scene))
         self.advance_to(0.0)
 

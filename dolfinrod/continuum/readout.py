@@ -116,7 +116,7 @@ class Readout:
         touched = np.stack([state["touch"] for state in states])[:, :, self._order]
         first = list(pairwise(np.concatenate([[0], np.cumsum(p.discretization.elements)])))
         of_rods = [_joined(shares[None, a:b])[0, :, 0] for a, b in first], [_joined(touched[:, a:b]) for a, b in first]
-        return contact_histories(p.scene.contacts, self.histories(states), *of_rods)
+        return contact_histories(p.scene.walls, self.histories(states), *of_rods)
 
     def rates(self, states: list[State], second: float) -> tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...]:
         """Velocity [m/s] and spin [rad/s] of the nodes of each rod in space, from gathered states that hold them."""

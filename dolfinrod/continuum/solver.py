@@ -220,7 +220,7 @@ def _touch(problem: Problem, start: Result, t: float) -> None:
     contacts = problem.contacts
     if contacts is None:
         return
-    if start.scene.contacts == problem.scene.contacts:
+    if start.scene.walls == problem.scene.walls:
         contacts.recall(start.state["touch"][problem.discretization.cell], t)
     else:
         contacts.place(t)

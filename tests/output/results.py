@@ -210,6 +210,77 @@ def touched(draw: st.DrawFn) -> dr.Result:
     )
 
 
+PILED = replace(
+    LYING, contacts=[dr.RodContact(dr.Penalty(1e6, 5e-5), dr.Coulomb(0.3)), *LYING.contacts, dr.RodContact(rods=[1])]
+)
+
+
+def piled() -> dr.Result:
+    """The rods of `lain`, of which the second also presses the first in two spots more and more, and itself nowhere."""
+    result, none = lain(), rows(0)
+    s = (np.array([[0.4], [0.6]]) + np.array([-1e-3, 0.0, 1e-3])).ravel()
+    share = np.tile([0.5e-3, 1e-3, 0.5e-3], 2)
+    once = rows(6)
+    up, along = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
+    spots = replace(
+        once,
+        rod_a=np.ones(6, dtype=np.int64),
+        s_a=s - 0.2,
+        s_b=s,
+        point=np.outer(s, along),
+        gap=np.full(6, -1e-5),
+        length=share,
+        normal=np.tile(up, (6, 1)),
+        state=np.repeat([1, 2], 3).astype(np.int8),
+    )
+    press = np.outer(1e3 * share, up)
+    rub = np.outer(1e3 * share * np.repeat([0.1, 0.3], 3), along)
+    times = [none, *(replace(spots, force=f * (press + rub), traction=f * rub) for f in (0.5, 1.0))]
+    meetings = (dr.MeetingHistory(tuple(times)), dr.MeetingHistory((none,) * 3))
+    return replace(result, scene=PILED, meetings=meetings)
+
+
+def rows(n: int) -> dr.Meetings:
+    """Rows of zeros."""
+    line, vectors, whole = np.zeros(n), np.zeros((n, 3)), np.zeros(n, dtype=np.int64)
+    two = {"rod_a": whole, "s_a": line, "rod_b": whole, "s_b": line, "point": vectors, "gap": line, "length": line}
+    return dr.Meetings(**two, force=vectors, normal=vectors, traction=vectors, state=np.zeros(n, dtype=np.int8))
+
+
+@st.composite
+def meetings_of(draw: st.DrawFn, rods: tuple[int, ...]) -> dr.Meetings:
+    """Any rows of some of the rods of `PILED`."""
+    n = draw(st.integers(0, 3))
+    among = arrays(np.int64, n, elements=st.sampled_from(rods))
+    lines, vectors = (arrays(np.float64, shape, elements=doubles) for shape in (n, (n, 3)))
+    places = arrays(np.float64, n, elements=st.floats(0.0, 0.5))
+    return draw(
+        st.builds(
+            dr.Meetings,
+            rod_a=among,
+            s_a=places,
+            rod_b=among,
+            s_b=places,
+            point=vectors,
+            gap=lines,
+            length=arrays(np.float64, n, elements=st.floats(0.0, 1e9)),
+            force=vectors,
+            normal=vectors,
+            traction=vectors,
+            state=arrays(np.int8, n, elements=st.integers(0, 2)),
+        )
+    )
+
+
+@st.composite
+def met(draw: st.DrawFn) -> dr.Result:
+    """Any record of two rods that touch one another, surfaces, or themselves."""
+    result = draw(touched())
+    kinds = ((0, 1), (1,))
+    meetings = tuple(dr.MeetingHistory(tuple(draw(meetings_of(rods)) for _ in result.t)) for rods in kinds)
+    return replace(result, scene=PILED, meetings=meetings)
+
+
 def shortened(result: dr.Result, states: slice) -> dr.Result:
     """The same with some of its stored states only."""
     rods = tuple(

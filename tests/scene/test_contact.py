@@ -64,7 +64,10 @@ def test_corners_are_those_of_every_history(load: object, support: object, wall:
         ),
         (lambda: dr.Contact(dr.Plane(), rod=-1), r"^Contact\.rod must be the number of a rod .*, got -1$"),
         (lambda: dr.Scene([ROD], contacts=FLOOR), r"^contacts must be a tuple, got Contact\("),
-        (lambda: dr.Scene([ROD], contacts=[dr.Plane()]), r"^contacts\[0\] must be one of Contact, got Plane\("),
+        (
+            lambda: dr.Scene([ROD], contacts=[dr.Plane()]),
+            r"^contacts\[0\] must be one of Contact, RodContact, got Plane\(",
+        ),
         (
             lambda: dr.Scene([ROD], contacts=[FLOOR, replace(FLOOR, rod=1)]),
             r"^contacts\[1\]\.rod must be below 1, the number of rods, got 1$",

@@ -90,7 +90,10 @@ def test_different_components_may_be_held_at_one_place() -> None:
             r"supports\[0\] must be one of Clamp, Pin, Guide, Prescribed, got PointForce",
         ),
         (lambda: dr.Scene([SHORT], loads=[dr.Clamp("end")]), r"loads\[0\] must be one of PointForce, .*, got Clamp"),
-        (lambda: dr.Scene([SHORT], contacts=["floor"]), r"contacts\[0\] must be one of Contact, got 'floor'"),
+        (
+            lambda: dr.Scene([SHORT], contacts=["floor"]),
+            r"contacts\[0\] must be one of Contact, RodContact, got 'floor'",
+        ),
         (lambda: dr.Scene([SHORT], air="still"), r"air must be Air or None, got 'still'"),
         (lambda: dr.Scene([SHORT], motion=None), r"motion must be Static or Dynamic, got None"),
         (

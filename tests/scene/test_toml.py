@@ -464,15 +464,15 @@ def test_contacts_read_as_in_python() -> None:
         (
             "cylinder = {",
             "cilinder = {",
-            r"^contacts\[0\]\.cilinder is unknown; known are plane, cylinder, groove, law, friction, rod; did you",
+            r"^contacts\[0\]\.cilinder is unknown; known are plane, cylinder, groove, rods, law, friction, rod; did",
         ),
         ('point = [0, 0, "-1 mm"]', "at = 0", r"^contacts\[1\]\.plane\.at is unknown; known are point, normal, motion"),
         ("[contacts.groove]", "[contacts.other]", r"^contacts\[2\]\.other is unknown; known are plane, cylinder, gr"),
-        ("plane = {}", "", r"^contacts\[3\] must be one of plane, cylinder, groove, got none$"),
+        ("plane = {}", "", r"^contacts\[3\] must be one of plane, cylinder, groove, rods, got none$"),
         (
             "plane = {}",
             "plane = {}\ncylinder = {}",
-            r"^contacts\[3\] must be one of plane, cylinder, groove, got plane, cylinder$",
+            r"^contacts\[3\] must be one of plane, cylinder, groove, rods, got plane, cylinder$",
         ),
         ("plane = {}", "plane = 0", r"^contacts\[3\]\.plane must be a table, got 0$"),
         ('radius = "25 mm", ', "", r"^contacts\[0\]\.cylinder\.radius is missing$"),
