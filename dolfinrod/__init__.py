@@ -9,6 +9,7 @@
 Importing this package loads neither DOLFINx nor PETSc; `solve` does.
 """
 
+from dolfinrod import twist
 from dolfinrod.eigen import Buckling, Modes, RodShapes
 from dolfinrod.result import (
     ContactHistory,
@@ -114,4 +115,5 @@ __all__ = [
     "critical",
     "modes",
     "solve",
+    "twist",
 ]

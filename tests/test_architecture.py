@@ -81,6 +81,7 @@ def test_neither_model_loads_the_other(model, other):
         (dr.Result, "tip"),
         (dr.RodHistory, "at"),
         (dr, "buckling critical modes Buckling Modes RodShapes"),
+        (dr.twist, "winding pairs axis_winding profile delivered crossings exchanges writhe twist link outflow of"),
         (discrete, "solve buckling critical modes"),
     ],
 )

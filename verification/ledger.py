@@ -45,6 +45,7 @@ from verification.robustness import OneStepLoads, Steps
 from verification.shape import Shape
 from verification.speed import Speed
 from verification.stability import Bracket, EigenStudy
+from verification.twist import TwistStudy
 from verification.workprecision import Record, Study, Timing
 
 __all__ = ["Ledger", "Unit", "source_hash"]
@@ -52,7 +53,8 @@ __all__ = ["Ledger", "Unit", "source_hash"]
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
 Moved = DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
-Row = Trial | Moved | Touched | Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study
+Other = Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study | TwistStudy
+Row = Trial | Moved | Touched | Other
 PARTS = (
     Attempt,
     ContactRecord,
@@ -80,8 +82,8 @@ class Unit:
     Args:
         topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
             "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
-            "frequency", "drift", "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map" or
-            "hard contact".
+            "frequency", "drift", "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map",
+            "hard contact" or "twist".
         words: What is solved, for people.
         parameters: What sets it apart from others of its topic; strings and numbers.
         work: Solves it; returns a row, or rows, for the report.

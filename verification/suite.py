@@ -33,6 +33,7 @@ from verification.robustness import OneStepLoads, Steps
 from verification.speed import Speed
 from verification.stability import Bracket, EigenStudy
 from verification.statement import Statement, statement
+from verification.twist import TwistStudy
 from verification.workprecision import Study
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ __all__ = ["Missed", "Report", "report", "work_off"]
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
 Moved = DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
-Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow
+Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow | TwistStudy
 # Fields of the report that are the rows of a topic, as they come.
 AS_FOUND = {
     "one_step": "one step",
@@ -65,6 +66,7 @@ AS_FOUND = {
     "beside": "side by side",
     "contact_maps": "contact map",
     "hard_contacts": "hard contact",
+    "twists": "twist",
 }
 
 
@@ -105,6 +107,7 @@ class Report:
         beside: Both models on it, side by side.
         contact_maps: Outcome over step, penalty and length of the elements.
         hard_contacts: What contact stumbles over.
+        twists: How twist is measured.
         contenders: Other people's solvers and our models on one problem.
     """
 
@@ -141,6 +144,7 @@ class Report:
     beside: tuple[SideBySide, ...] = ()
     contact_maps: tuple[ContactCell, ...] = ()
     hard_contacts: tuple[ContactRow, ...] = ()
+    twists: tuple[TwistStudy, ...] = ()
 
     def compile_ms(self, model: str) -> float | None:
         """What a model spent on making or loading its forms when it was first used [ms]."""
@@ -162,7 +166,7 @@ class Report:
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
         missed += [row for row in moved if not row.holds]
         touched: tuple[Touched, ...] = (*self.touching, *self.grooves, *self.beside, *self.contact_maps)
-        missed += [row for row in (*touched, *self.hard_contacts) if not row.holds]
+        missed += [row for row in (*touched, *self.hard_contacts, *self.twists) if not row.holds]
         missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
 

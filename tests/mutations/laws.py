@@ -12,6 +12,7 @@ import dolfinrod as dr
 from tests.mutations import contact_measures as touching
 from tests.mutations import measures as by
 from tests.mutations import motions as moving
+from tests.mutations import twist_measures as twisting
 from tests.mutations.contact_scenes import ROUGH
 from tests.mutations.measures import Solve
 from tests.mutations.scenes import CURVED, TWISTED, loaded_in_a_plane, loaded_in_every_way
@@ -123,4 +124,10 @@ LAWS = {
         1e-8,
     ),
     "gone on in motion": Law("the same", partial(touching.goes_on, dr.Dynamic(0.8, 0.05)), 1e-8),
+    "signs of crossings": Law("Z where what lies on top goes to the right, S in its mirror", twisting.crosses, 0.0),
+    "winding of strands": Law("is how often they were wound, Z positive", twisting.winds, 1e-9),
+    "winding about an axis": Law("is how often the bundle was turned", twisting.turns_about_its_axis, 1e-9),
+    "winding with a hook": Law("is that without it, where none is inside", twisting.winds_with_a_hook, 1e-9),
+    "Lk = Tw + Wr": Law("is a whole number, of any polygon", twisting.linked, 1e-10),
+    "twist that leaves": Law("is that of the strand that moves on", twisting.leaves, 1e-9),
 }

@@ -1,4 +1,4 @@
-"""What a mutation is, and those that issues 3, 5 and 6 ask for."""
+"""What a mutation is, and those that issues 3, 5, 6 and 7 ask for."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from tests.mutations.planting import Plant
 
-# What issues 3, 5 and 6 list, in their words.
+# What issues 3, 5, 6 and 7 list, in their words.
 ASKED = (
     "4× axial stiffness",
     "sign of the u–w coupling",
@@ -26,6 +26,7 @@ ASKED = (
     "normal not unit",
     "gap from the centreline",
     "missing friction moment",
+    "unsigned crossing",
 )
 
 

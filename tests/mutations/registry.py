@@ -8,6 +8,7 @@ from tests.mutations import (
     discrete_mutations,
     form_mutations,
     motion_mutations,
+    twist_mutations,
 )
 
 __all__ = ["MUTATIONS", "mutations"]
@@ -18,6 +19,7 @@ MUTATIONS = (
     *form_mutations.MUTATIONS,
     *motion_mutations.MUTATIONS,
     *contact_mutations.MUTATIONS,
+    *twist_mutations.MUTATIONS,
 )
 
 

@@ -26,6 +26,7 @@ from verification.report.tables import figure, power, scientific
 from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
 from verification.stability import Bracket, EigenStudy
+from verification.twist import TwistStudy
 
 __all__ = ["sentence"]
 
@@ -206,6 +207,15 @@ def _(row: GrooveSweep) -> str:
         return f"{row.title}: {row.solver} over {row.over} was refused: {failures[0]}"
     off = scientific(row.points[-1].error)
     return f"{row.title}: {row.solver} over {row.over} is {off} off the other model, at most {LIMIT:g}"
+
+
+@sentence.register
+def _(row: TwistStudy) -> str:
+    asked = f"at most {scientific(row.limit, 0)}"
+    if row.order is None:
+        return f"{row.title}: {row.measure} is {scientific(max(row.errors))} off, {asked}"
+    found = f"order {power(row.order.observed)} of {row.order.theory}, extrapolated {scientific(row.extrapolated)} off"
+    return f"{row.title}: {row.measure} has {found}, {asked}"
 
 
 @sentence.register

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from verification.references.robustness import PEER_LOADS
-from verification.report import contact, contactmaps, groove, hardcontact, motion, rigid
+from verification.report import contact, contactmaps, groove, hardcontact, motion, rigid, twist
 from verification.report.critical import brackets, eigenvalues
 from verification.report.hardmotion import hard_motions
 from verification.report.maps import limits, maps
@@ -33,6 +33,7 @@ TITLES = {
     "groove": groove.TITLE,
     "contact-maps": contactmaps.TITLE,
     "hard-contact": hardcontact.TITLE,
+    "winding": twist.TITLE,
 }
 WORDS = {
     "eigen": "Critical loads with all deformation before them, and natural frequencies, against characteristic "
@@ -70,6 +71,7 @@ WORDS = {
     "groove": groove.WORDS,
     "contact-maps": contactmaps.WORDS,
     "hard-contact": hardcontact.WORDS,
+    "winding": twist.WORDS,
 }
 
 
@@ -91,6 +93,7 @@ def contents(report: Report) -> dict[str, str]:
     parts["groove"] = groove.groove(report.grooves, report.beside) if report.grooves or report.beside else ""
     parts["contact-maps"] = contactmaps.contact_maps(report.contact_maps) if report.contact_maps else ""
     parts["hard-contact"] = hardcontact.hard_contacts(report.hard_contacts) if report.hard_contacts else ""
+    parts["winding"] = twist.twists(report.twists) if report.twists else ""
     return {key: text for key, text in parts.items() if text}
 
 
@@ -118,5 +121,10 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
             "hard-contact",
             report.hard_contacts,
             "hard contacts: the end sought in few iterations, or a refusal in words",
+        ),
+        (
+            "winding",
+            report.twists,
+            "measures of twist: exact, or with the order of theory and right to the digits trusted",
         ),
     )
