@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dolfinrod.deformation import RodHistory
+from dolfinrod.meetings import MeetingHistory, Meetings
 from dolfinrod.scene import Dynamic
 from dolfinrod.touching import ContactHistory, Touching
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 __all__ = [
     "ContactHistory",
     "Formulation",
+    "MeetingHistory",
+    "Meetings",
     "NotConverged",
     "Result",
     "RodHistory",
@@ -116,7 +119,8 @@ class Result:
         statistics: Cost.
         formulation: What was in the form.
         state: The last state as the model keeps it, to start from.
-        contacts: Where the rods touched, one a contact of the scene.
+        contacts: Where the rods touched surfaces, one a wall of the scene.
+        meetings: Where rods touched rods, one a contact of rods in the scene.
     """
 
     scene: Scene
@@ -129,6 +133,7 @@ class Result:
     formulation: Formulation
     state: dict[str, NDArray[np.float64]] = field(default_factory=dict, repr=False)
     contacts: tuple[ContactHistory, ...] = ()
+    meetings: tuple[MeetingHistory, ...] = ()
 
     @property
     def tip(self) -> NDArray[np.float64]:
@@ -138,9 +143,10 @@ class Result:
     def write(self, folder: str | Path) -> None:
         """Leave everything in a folder, replacing what an earlier result left there.
 
-        Tables (`rod-0.csv`, …; of contacts `contact-0-rod-0.csv`, …), series for ParaView (`rods.pvd`; what the rods
-        touch: `surfaces.pvd`), the scene (`scene.toml`), the record (`result.json`) and the state (`state.npz`). Every
-        rank may write: each file appears complete, and ranks write the same.
+        Tables (`rod-0.csv`, …; of contacts `contact-0-rod-0.csv`, …, among rods `meeting-0.csv`, …), series for
+        ParaView (`rods.pvd`; what the rods touch: `surfaces.pvd`, `meetings.pvd`), the scene (`scene.toml`), the record
+        (`result.json`) and the state (`state.npz`). Every rank may write: each file appears complete, and ranks write
+        the same.
 
         Args:
             folder: Made where it does not exist.
@@ -173,7 +179,8 @@ class Result:
     def plot(self, path: str | Path | None = None) -> Figure:
         """Picture of the deformed rods, the resultants along them, the way of their tips and, in time, the ledger.
 
-        Of rods that may touch something also pressures, tractions and gaps along them, and the contact forces.
+        Of rods that may touch surfaces also pressures, tractions and gaps along them, and the contact forces; of rods
+        that may touch one another forces and numbers of spots.
 
         Args:
             path: Where to save it, in the format its ending names; None: nowhere.

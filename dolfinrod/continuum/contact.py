@@ -66,7 +66,7 @@ class Contacts:
         rods[d.dofs["r"][:, :, 0]] = problem.rod[:, None]
         rod, radii = rods[first], np.array([section.radius or 0.0 for section in (r.section for r in scene.rods)])
         self._sides = []
-        for contact in scene.contacts:
+        for contact in scene.walls:
             nodes = np.flatnonzero(rod == contact.rod) if contact.rod is not None else np.arange(len(rod))
             touch = Touch(contact, radii[rod[nodes]], scene.motion.t_end, level, inert=inert)
             self._sides.append(_Side(touch, nodes, lengths[nodes]))

@@ -25,7 +25,18 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["CAPTION", "draw_contacts", "n_rows"]
+__all__ = [
+    "CAPTION",
+    "PRESSURE",
+    "TRACTION",
+    "ZONES",
+    "dots",
+    "draw_contacts",
+    "finish",
+    "line_styles",
+    "n_rows",
+    "time_axis",
+]
 
 CAPTION = "Friction t reaches its limit μp only where a rod slides; rods are pressed where they come closer than g₀."
 # Contacts beyond these are left to the tables.
@@ -41,25 +52,26 @@ def n_rows(result: Result) -> int:
     return 1 + min(len(result.contacts), MOST_CONTACTS) if result.contacts else 0
 
 
-def draw_contacts(figure: Figure, grid: GridSpec, result: Result) -> None:
+def draw_contacts(figure: Figure, grid: GridSpec, result: Result, first: int) -> None:
     """Line loads and gaps of each contact at the last stored state, then forces and lengths over time.
 
     Args:
         figure: Where to draw.
-        grid: Whose last rows, of two panels each, are free.
+        grid: Its rows are of two panels each.
         result: With contacts.
+        first: Row from which on `n_rows` of them are free.
     """
-    first = grid.nrows - n_rows(result)
-    for k in range(n_rows(result) - 1):
+    last = first + n_rows(result) - 1
+    for k in range(last - first):
         _draw_loads(figure.add_subplot(grid[first + k, 0]), result, k)
         _draw_gaps(figure.add_subplot(grid[first + k, 1]), result, k)
-    _draw_forces(figure.add_subplot(grid[-1, 0]), result)
-    _draw_lengths(figure.add_subplot(grid[-1, 1]), result)
+    _draw_forces(figure.add_subplot(grid[last, 0]), result)
+    _draw_lengths(figure.add_subplot(grid[last, 1]), result)
 
 
 def _draw_loads(axes: Axes, result: Result, k: int) -> None:
     """Pressure, traction and its limit along the rods; where they stick and where they slide."""
-    rods, friction = _rods(result, k), result.scene.contacts[k].friction
+    rods, friction = _rods(result, k), result.scene.walls[k].friction
     norms = {j: np.linalg.norm(rod.traction[-1], axis=1) for j, rod in rods.items()}
     size = max(float(np.concatenate((rod.pressure[-1], norms[j])).max()) for j, rod in rods.items())
     unit, along = scale(size, "N/m"), _along(rods)
@@ -77,12 +89,12 @@ def _draw_loads(axes: Axes, result: Result, k: int) -> None:
     states = np.concatenate([rod.state[-1] for rod in rods.values()])
     key += [Patch(color=color, alpha=0.2, linewidth=0, label=name) for i, (name, color) in ZONES.items() if i in states]
     axes.set(xlabel=f"arc length s [{along.unit}]", ylabel=f"line load [{unit.unit}]")
-    _finish(axes, f"{_name(result, k)}: loads along the rods, {_at(result)}", size, key + _rod_styles(result, rods))
+    finish(axes, f"{_name(result, k)}: loads along the rods, {_at(result)}", size, key + _rod_styles(result, rods))
 
 
 def _draw_gaps(axes: Axes, result: Result, k: int) -> None:
     """Gap along the rods, the surface and where contact begins."""
-    rods, g_0 = _rods(result, k), result.scene.contacts[k].law.g_0
+    rods, g_0 = _rods(result, k), result.scene.walls[k].law.g_0
     gaps = np.concatenate([rod.gap[-1] for rod in rods.values()])
     pressed = np.concatenate([rod.pressure[-1] for rod in rods.values()]) > 0.0
     near = max(abs(g_0), float(np.abs(gaps[pressed]).max(initial=0.0)))
@@ -102,7 +114,7 @@ def _draw_gaps(axes: Axes, result: Result, k: int) -> None:
     far_off = "\n(logarithmic far off)" if hidden else ""
     axes.set(xlabel=f"arc length s [{along.unit}]", ylabel=f"gap g [{unit.unit}]{far_off}")
     title = f"{_name(result, k)}: gap along the rods, {_at(result)}"
-    _finish(axes, title, size, key + _rod_styles(result, rods))
+    finish(axes, title, size, key + _rod_styles(result, rods))
 
 
 def _draw_forces(axes: Axes, result: Result) -> None:
@@ -113,14 +125,17 @@ def _draw_forces(axes: Axes, result: Result) -> None:
     for k, force in enumerate(forces):
         for i, color in enumerate(COMPONENTS):
             axes.plot(
-                result.t, unit.factor * force[:, i], color=color, linestyle=STYLES[k % len(STYLES)], **_dots(result)
+                result.t, unit.factor * force[:, i], color=color, linestyle=STYLES[k % len(STYLES)], **dots(result)
             )
-    axes.set(xlabel=_time(result), ylabel=f"force F [{unit.unit}]")
+    axes.set(xlabel=time_axis(result), ylabel=f"force F [{unit.unit}]")
     names = ("$F_x$", "$F_y$", "$F_z$")
     key = [Line2D([], [], color=color, label=name) for color, name in zip(COMPONENTS, names, strict=True)]
     numbers = list(range(len(forces)))
-    _finish(
-        axes, "Contact forces on the rods, in space", size, key + (_styles("contact", numbers) if numbers[1:] else [])
+    finish(
+        axes,
+        "Contact forces on the rods, in space",
+        size,
+        key + (line_styles("contact", numbers) if numbers[1:] else []),
     )
 
 
@@ -135,11 +150,11 @@ def _draw_lengths(axes: Axes, result: Result) -> None:
             unit.factor * length,
             color=RODS[k] if few else LIMIT,
             linestyle=STYLES[k % len(STYLES)],
-            **_dots(result),
+            **dots(result),
             label=f"contact {k}",
         )
-    axes.set(xlabel=_time(result), ylabel=f"length in contact [{unit.unit}]")
-    _finish(axes, "Length in contact", size, axes.lines[: len(RODS)] if few else axes.lines[:1])
+    axes.set(xlabel=time_axis(result), ylabel=f"length in contact [{unit.unit}]")
+    finish(axes, "Length in contact", size, axes.lines[: len(RODS)] if few else axes.lines[:1])
 
 
 def _rods(result: Result, k: int) -> dict[int, Touching]:
@@ -162,7 +177,7 @@ def _along(rods: dict[int, Touching]) -> Any:
 
 
 def _name(result: Result, k: int) -> str:
-    return f"Contact {k}, {type(result.scene.contacts[k].surface).__name__.lower()}"
+    return f"Contact {k}, {type(result.scene.walls[k].surface).__name__.lower()}"
 
 
 def _moving(result: Result) -> bool:
@@ -173,28 +188,29 @@ def _at(result: Result) -> str:
     return f"t = {result.t[-1]:.4g}{' s' * _moving(result)}"
 
 
-def _time(result: Result) -> str:
+def time_axis(result: Result) -> str:
+    """Name of the axis of stored times."""
     return "time t [s]" if _moving(result) else "pseudo-time t [1]"
 
 
-def _dots(result: Result) -> dict[str, Any]:
+def dots(result: Result) -> dict[str, Any]:
     """Equilibria are dots on their path."""
     return {} if _moving(result) else {"marker": "o", "markersize": 3.5}
 
 
 def _rod_styles(result: Result, rods: dict[int, Touching]) -> list[Line2D]:
     """Key of the rods, where the scene has several."""
-    return _styles("rod", list(rods)) if len(result.rods) > 1 else []
+    return line_styles("rod", list(rods)) if len(result.rods) > 1 else []
 
 
-def _styles(what: str, numbers: list[int]) -> list[Line2D]:
+def line_styles(what: str, numbers: list[int]) -> list[Line2D]:
     """Key of the line styles."""
     more = ", …" if len(numbers) > len(STYLES) else ""
     shown = numbers[: len(STYLES)]
     return [Line2D([], [], color="0.3", linestyle=STYLES[j % len(STYLES)], label=f"{what} {j}{more}") for j in shown]
 
 
-def _finish(axes: Axes, title: str, size: float, key: list[Any]) -> None:
+def finish(axes: Axes, title: str, size: float, key: list[Any]) -> None:
     """Title, grid, the line of zero and the key; a panel in which all is zero keeps to ±1."""
     if not size:
         axes.set_ylim(-1.0, 1.0)

@@ -55,7 +55,7 @@ def write_contacts(result: Result, folder: Path) -> dict[str, Any]:
                 _write_table(folder / contact_table(k, j), result.t, rod)
     if not result.contacts:
         return {}
-    return {"contacts": [_told(*pair) for pair in zip(result.scene.contacts, result.contacts, strict=True)]}
+    return {"contacts": [_told(*pair) for pair in zip(result.scene.walls, result.contacts, strict=True)]}
 
 
 def summarised(contact: ContactHistory) -> dict[str, Array]:

@@ -11,6 +11,7 @@ from mpl_toolkits import mplot3d
 
 from dolfinrod.output.contactpanels import CAPTION, draw_contacts, n_rows
 from dolfinrod.output.ledger import draw_ledger
+from dolfinrod.output.meetingpanels import draw_meetings, mark_spots
 from dolfinrod.output.palette import COMPONENTS, RODS, STYLES
 from dolfinrod.output.scale import Scale, scale
 from dolfinrod.output.trace import COLOR, draw_surfaces
@@ -52,7 +53,7 @@ def plot(result: Result, path: str | Path | None = None) -> Figure:
         The figure, made without a window.
     """
     panels = 4 if len(result.energy) > 1 else 3
-    rows = panels + n_rows(result)
+    rows = panels + n_rows(result) + bool(result.meetings)
     figure = Figure(figsize=(11.0, 2.2 * rows + 1.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, wspace=0.03, hspace=0.03)
     grid = figure.add_gridspec(rows, 2, width_ratios=(1.25, 1.0))
@@ -67,7 +68,9 @@ def plot(result: Result, path: str | Path | None = None) -> Figure:
     if panels == 4:
         draw_ledger(figure.add_subplot(grid[3, 1]), result)
     if result.contacts:
-        draw_contacts(figure, grid, result)
+        draw_contacts(figure, grid, result, panels)
+    if result.meetings:
+        draw_meetings(figure, grid, result)
     figure.suptitle(_headline(result), fontsize=11)
     if path is not None:
         figure.savefig(path, dpi=130)
@@ -126,6 +129,7 @@ def _draw_shapes(axes: Any, rods: list[list[Array]], seen: View, result: Result)
         key.append(Line2D([], [], color="0.3", linewidth=0.9, alpha=0.5, label="on the way"))
     if draw_surfaces(axes, result, seen, rods[0][0][0], unit.factor):
         key.append(Line2D([], [], color=COLOR, linewidth=1.3, label="surface"))
+    key += mark_spots(axes, result, seen, unit.factor)
     few = 1 < len(rods) <= len(RODS)
     names = [f"rod {k}" for k in range(len(rods))] if few else ["deformed"]
     for name, color in zip(names, RODS if few or len(rods) == 1 else ("0.3",), strict=False):

@@ -12,10 +12,11 @@ import numpy as np
 
 from dolfinrod.output.arrays import read_arrays
 from dolfinrod.output.contacts import read_contact, summarised, weight
+from dolfinrod.output.meetings import meeting_table, read_meeting, spot_sums
 from dolfinrod.output.record import FORMAT, RECORD, SCENE, STATE, rod_table
 from dolfinrod.output.rows import ROUND_OFF
 from dolfinrod.output.table import read_table
-from dolfinrod.result import ContactHistory, Formulation, Result, RodHistory, Statistics, StepLog
+from dolfinrod.result import ContactHistory, Formulation, MeetingHistory, Result, RodHistory, Statistics, StepLog
 from dolfinrod.scene import Scene, SceneError, toml
 
 if TYPE_CHECKING:
@@ -69,6 +70,7 @@ def _load(folder: Path, scene: Scene | None) -> Result:
         formulation=_made(Formulation, _taken(record, "formulation", dict, path), f"{path}: formulation"),
         state=read_arrays(folder / STATE),
         contacts=_contacts(folder, record, scene, t, tuple(rod.s for rod in rods)),
+        meetings=_meetings(folder, record, scene, t),
     )
 
 
@@ -112,28 +114,45 @@ def _contacts(
     told = _taken(record, "contacts", list, path) if "contacts" in record else []
     if not told:
         return ()
-    if len(told) != len(scene.contacts):
-        raise SceneError(f"must have the {len(scene.contacts)} contacts of the scene, got {len(told)}", field=str(path))
-    found = tuple(read_contact(folder, k, contact, t, nodes) for k, contact in enumerate(scene.contacts))
+    if len(told) != len(scene.walls):
+        raise SceneError(f"must have the {len(scene.walls)} contacts of the scene, got {len(told)}", field=str(path))
+    found = tuple(read_contact(folder, k, contact, t, nodes) for k, contact in enumerate(scene.walls))
     for k, (contact, entry) in enumerate(zip(found, told, strict=True)):
-        _check_summary(contact, entry, k, path)
+        where, tables = f"{path}: contacts[{k}]", f"contact-{k}-rod-….csv"
+        _check_summary(summarised(contact), weight(contact), entry, where, tables)
     return found
 
 
-def _check_summary(contact: ContactHistory, entry: Any, k: int, path: Path) -> None:
-    """Record and tables are of the same contact; sums differ by round-off at most."""
-    where = f"{path}: contacts[{k}]"
+def _meetings(folder: Path, record: dict[str, Any], scene: Scene, t: Array) -> tuple[MeetingHistory, ...]:
+    """Tables of all contacts among rods, as `_contacts`."""
+    path = folder / RECORD
+    told = _taken(record, "meetings", list, path) if "meetings" in record else []
+    if not told:
+        return ()
+    if len(told) != len(scene.meetings):
+        wrong = f"must have the {len(scene.meetings)} contacts among rods of the scene, got {len(told)}"
+        raise SceneError(wrong, field=str(path))
+    found = tuple(read_meeting(folder, k, scene, t) for k in range(len(told)))
+    for k, (meeting, entry) in enumerate(zip(found, told, strict=True)):
+        sums = spot_sums(meeting)
+        most = {name: float(values.max()) for name, values in sums.items()}
+        _check_summary(sums, most, entry, f"{path}: meetings[{k}]", meeting_table(k))
+    return found
+
+
+def _check_summary(sums: dict[str, Array], most: dict[str, float], entry: Any, where: str, tables: str) -> None:
+    """Record and tables are of the same contact; sums differ by round-off of what they are made of at most."""
     if not isinstance(entry, dict):
         raise SceneError(f"must be a table, got {entry!r}", field=where)
-    for (name, values), most in zip(summarised(contact).items(), weight(contact).values(), strict=True):
+    for name, values in sums.items():
         told = _taken(entry, name, list[float] if values.ndim == 1 else list[list[float]], where)
         try:
             doubles = np.array(told, dtype=np.float64)
-            same = doubles.shape == values.shape and bool((np.abs(doubles - values) <= ROUND_OFF * most).all())
+            same = doubles.shape == values.shape and bool((np.abs(doubles - values) <= ROUND_OFF * most[name]).all())
         except (ValueError, OverflowError):  # rows of different lengths, numbers beyond doubles
             same = False
         if not same:
-            raise SceneError(f"must have the {name} of the tables contact-{k}-rod-….csv, got another", field=where)
+            raise SceneError(f"must have the {name} of the tables {tables}, got another", field=where)
 
 
 def _taken(record: dict[str, Any], name: str, kind: Any, path: Path | str) -> Any:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from dolfinrod.output.arrays import write_arrays
 from dolfinrod.output.contacts import write_contacts
+from dolfinrod.output.meetings import write_meetings, write_spots
 from dolfinrod.output.surfaces import write_surfaces
 from dolfinrod.output.table import write_table
 from dolfinrod.output.vtk import write_series
@@ -26,8 +27,8 @@ FORMAT = "dolfinrod result 1"
 RECORD, SCENE, STATE = "result.json", "scene.toml", "state.npz"
 # Names that a result gives to files, and so may take away again.
 OURS = re.compile(
-    r"rod-\d+\.csv|contact-\d+-rod-\d+\.csv|rods-\d+\.vtu|surface-\d+(-\d+)?\.vtu|(rods|surfaces)\.pvd"
-    r"|scene\.toml|state\.npz"
+    r"rod-\d+\.csv|contact-\d+-rod-\d+\.csv|meeting-\d+\.csv|(rods|meetings)-\d+\.vtu|surface-\d+(-\d+)?\.vtu"
+    r"|(rods|surfaces|meetings)\.pvd|scene\.toml|state\.npz"
 )
 
 
@@ -37,7 +38,8 @@ def write(result: Result, folder: Path, *, failure: NotConverged | None = None) 
     `result.json` is the record, `rod-0.csv`, … the arrays along the rods, `rods.pvd` with `rods-0000.vtu`, … the same
     for ParaView, `scene.toml` the scene where a file can hold it, `state.npz` what a later solve can go on from. Of
     scenes with contacts there are also `contact-0-rod-0.csv`, … and, for ParaView, what is touched: `surfaces.pvd` with
-    `surface-0.vtu`, …. Every number is written with the digits that read back to the same double. Each file appears
+    `surface-0.vtu`, …; where rods may touch one another `meeting-0.csv`, … and `meetings.pvd` with its
+    `meetings-0000.vtu`, …. Every number is written with the digits that read back to the same double. Each file appears
     complete, the record last, so that several ranks may write the same result at the same time.
 
     Args:
@@ -48,11 +50,13 @@ def write(result: Result, folder: Path, *, failure: NotConverged | None = None) 
     folder.mkdir(parents=True, exist_ok=True)
     with TemporaryDirectory(prefix=".result-", dir=folder) as name:
         draft = Path(name)
-        record = _record(result, failure) | _write_scene(result, draft) | write_contacts(result, draft)
+        record = _record(result, failure) | _write_scene(result, draft)
+        record |= write_contacts(result, draft) | write_meetings(result, draft)
         for k, rod in enumerate(result.rods):
             write_table(draft / rod_table(k), result.t, rod)
         write_series(result, draft)
         write_surfaces(result, draft)
+        write_spots(result, draft)
         write_arrays(draft / STATE, result.state)
         made = sorted(path.name for path in draft.iterdir())
         text = json.dumps(record | {"files": made}, indent=2, ensure_ascii=False)

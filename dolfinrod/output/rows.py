@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["PLACE", "ROUND_OFF", "read_rows", "write_rows"]
+__all__ = ["PLACE", "ROUND_OFF", "read_numbers", "read_rows", "write_numbers", "write_rows"]
 
 # Tables keep every digit, so that what belongs together differs by round-off of the scene's own numbers at most.
 ROUND_OFF = 1e-9
@@ -38,6 +38,11 @@ def write_rows(path: Path, columns: Sequence[str], t: Array, s: Array, parts: Se
     times, places = np.broadcast_arrays(t[:, None, None], s[None, :, None])
     names = (*PLACE, *columns)
     rows = np.concatenate((times, places, *parts), axis=2).reshape(len(t) * len(s), len(names))
+    write_numbers(path, names, rows)
+
+
+def write_numbers(path: Path, names: Sequence[str], rows: Array) -> None:
+    """Write rows of numbers, shape (any, n_names), under a line that names their columns."""
     np.savetxt(path, rows, "%.17g", ",", header=",".join(names), comments="")
 
 
@@ -59,7 +64,7 @@ def read_rows(
         SceneError: Not such a table, or not of these times.
         OSError: The file cannot be read.
     """
-    found, rows = _rows(path, columns, further)
+    names, rows = read_numbers(path, (*PLACE, *columns), further)
     if not rows.size or len(rows) % len(t):
         raise SceneError(f"must have as many rows for each of {len(t)} times, got {len(rows)} rows", field=str(path))
     table = rows.reshape(len(t), -1, rows.shape[1])
@@ -68,15 +73,29 @@ def read_rows(
         raise SceneError("must go through the same nodes at each time of result.json, got others", field=str(path))
     if len(s) < 2 or s[0] != 0.0 or (np.diff(s) <= 0.0).any():
         raise SceneError("must have nodes at ascending s from 0, got others", field=str(path))
-    return s.copy(), table[:, :, len(PLACE) :], found
+    return s.copy(), table[:, :, len(PLACE) :], names[len(PLACE) :]
 
 
-def _rows(path: Path, columns: Sequence[str], further: Sequence[Sequence[str]]) -> tuple[tuple[str, ...], Array]:
-    """The columns there are, and the numbers under them, one row a line."""
+def read_numbers(
+    path: Path, columns: Sequence[str], further: Sequence[Sequence[str]] = ()
+) -> tuple[tuple[str, ...], Array]:
+    """Read back what `write_numbers` wrote.
+
+    Args:
+        path: File to read.
+        columns: All that must be there.
+        further: Columns that may come after them, group by group.
+
+    Returns:
+        Names of the columns there are, and the numbers under them, one row a line; no columns where there are no rows.
+
+    Raises:
+        SceneError: Not such a table.
+        OSError: The file cannot be read.
+    """
     try:
         header, _, body = path.read_text(encoding="utf-8").partition("\n")
-        found = (*columns, *(name for group in further if group[0] in header for name in group))
-        names = (*PLACE, *found)
+        names = (*columns, *(name for group in further if group[0] in header for name in group))
         if header != ",".join(names):
             raise SceneError(f"must begin with the line {','.join(names)}, got {header[:80]!r}", field=str(path))
         rows = np.loadtxt(StringIO(body), delimiter=",", comments=None, ndmin=2) if body.strip() else np.empty((0, 0))
@@ -90,4 +109,4 @@ def _rows(path: Path, columns: Sequence[str], further: Sequence[Sequence[str]]) 
         raise SceneError(f"must have {len(names)} columns, got {rows.shape[1]}", field=str(path))
     if not np.isfinite(rows).all():
         raise SceneError("must hold finite numbers only, got others", field=str(path))
-    return found, rows
+    return names, rows

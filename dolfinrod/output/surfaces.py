@@ -42,7 +42,7 @@ def write_surfaces(result: Result, folder: Path) -> None:
     import meshio
 
     shown: list[list[str]] = [[] for _ in result.t]
-    for k, contact in enumerate(result.scene.contacts):
+    for k, contact in enumerate(result.scene.walls):
         stations, (points, cells) = poses(contact, result), beside_rods(contact, result)
         still = contact.surface.motion is None
         names = [f"surface-{k}.vtu" if still else f"surface-{k}-{i:04d}.vtu" for i in range(len(result.t))]

@@ -33,6 +33,7 @@ def summary(model: str, result: Result) -> str:
         f"Newton iterations: {cost.newton_iterations}, {1e3 * cost.seconds_solve:.3g} ms{state}",
         f"  tip {_vector(result.tip, digits=10)} m",
         *_contacts(result),
+        *_meetings(result),
         *(_ledger(result) if moving else ()),
         *(_steps(result.log, moving) if len(result.log) > 1 else ()),
     ]
@@ -41,12 +42,23 @@ def summary(model: str, result: Result) -> str:
 
 def _contacts(result: Result) -> list[str]:
     """Length and resultant of each contact at the last stored state."""
-    pairs = zip(result.scene.contacts, result.contacts, strict=False)
+    pairs = zip(result.scene.walls, result.contacts, strict=False)
     return [
         f"  contact {k}, {type(posed.surface).__name__.lower()}: {found.length[-1]:.6g} m in contact, "
         f"force {_vector(found.force[-1])} N"
         for k, (posed, found) in enumerate(pairs)
     ]
+
+
+def _meetings(result: Result) -> list[str]:
+    """Spots of each contact among rods at the last stored state, their forces and the smallest gap."""
+    lines = []
+    for k, meeting in enumerate(result.meetings):
+        met, last = meeting.times[-1], len(meeting.times) - 1
+        n, closest = meeting.n_spots(last), f", gap down to {met.gap.min():.6g} m" if len(met.gap) else ""
+        pressed = f"{met.length.sum():.6g} m in contact, forces of {meeting.total(last):.6g} N in all"
+        lines.append(f"  contact {k} of rods with rods: {n} spot{'s' * (n != 1)}, {pressed}{closest}")
+    return lines
 
 
 def _ledger(result: Result) -> list[str]:

@@ -39,14 +39,14 @@ def draw_surfaces(axes: Any, result: Result, seen: View, origin: Array, factor: 
         Whether there was any.
     """
     if len(seen.axes) == 3:
-        drawn = [_draw_pieces(axes, contact, result, factor) for contact in result.scene.contacts]
+        drawn = [_draw_pieces(axes, contact, result, factor) for contact in result.scene.walls]
         return any(drawn)
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     x, y = np.linspace(left, right, FINE), np.linspace(bottom, top, FINE)
     normal = np.cross(*seen.axes)
     flat = np.stack(np.meshgrid(x, y), axis=-1) / factor
     points = flat @ seen.axes + (origin @ normal) * normal
-    drawn = [_draw_cut(axes, contact, result, (x, y, points)) for contact in result.scene.contacts]
+    drawn = [_draw_cut(axes, contact, result, (x, y, points)) for contact in result.scene.walls]
     return any(drawn)
 
 

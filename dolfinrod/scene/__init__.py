@@ -2,6 +2,7 @@
 
 from dolfinrod.scene.air import Air
 from dolfinrod.scene.contact import Contact
+from dolfinrod.scene.core import Core
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
 from dolfinrod.scene.history import Steady, corners, factor, kinks
@@ -10,6 +11,7 @@ from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineFo
 from dolfinrod.scene.motion import Dynamic, ImplicitEuler, Midpoint, Static, in_time
 from dolfinrod.scene.pressure import AugmentedLagrangian, Penalty, SmoothPenalty
 from dolfinrod.scene.rod import Rod
+from dolfinrod.scene.rodcontact import RodContact
 from dolfinrod.scene.scene import Scene
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import UniformCurvature
@@ -24,6 +26,7 @@ __all__ = [
     "AugmentedLagrangian",
     "Clamp",
     "Contact",
+    "Core",
     "Coulomb",
     "CreepingCoulomb",
     "Cylinder",
@@ -46,6 +49,7 @@ __all__ = [
     "PointMoment",
     "Prescribed",
     "Rod",
+    "RodContact",
     "Scene",
     "SceneError",
     "Section",

@@ -122,7 +122,7 @@ def corners(scene: Scene) -> tuple[float, ...]:
     Returns:
         Rows of all its tables, times outside the motion among them.
     """
-    parts = (*scene.supports, *scene.loads, *scene.contacts)
+    parts = (*scene.supports, *scene.loads, *scene.walls)
     return tuple(sorted({t for part in parts for t in kinks(getattr(part, "history", None))}))
 
 

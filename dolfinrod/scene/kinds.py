@@ -10,13 +10,14 @@ from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineFo
 from dolfinrod.scene.motion import Dynamic, Static
 from dolfinrod.scene.pressure import AugmentedLagrangian, Penalty, SmoothPenalty
 from dolfinrod.scene.rod import Rod
+from dolfinrod.scene.rodcontact import RodContact
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed
 from dolfinrod.scene.surfaces import Cylinder, Groove, Plane, WallMotion
 from dolfinrod.scene.tables import Choice, Inner, Kind
 from dolfinrod.scene.velocity import Velocity
 
-__all__ = ["AIR", "CONTACT", "LOADS", "MOTIONS", "RODS", "SECTION", "SECTIONS", "SUPPORTS", "SURFACES", "VELOCITIES"]
+__all__ = ["AIR", "CONTACT", "LOADS", "MOTIONS", "RODS", "SECTION", "SECTIONS", "SUPPORTS", "TOUCHED", "VELOCITIES"]
 
 METRE, SECOND = Quantity("m"), Quantity("s")
 NEWTON, NEWTON_METRE = Quantity("N"), Quantity("N*m")
@@ -121,42 +122,41 @@ MOTION: dict[str, Field] = {
         )
     )
 }
-SURFACES = Choice(
-    {
-        "plane": Kind(Plane, {"point": METRE, "normal": Plain(), **MOTION}),
-        "cylinder": Kind(Cylinder, {"point": METRE, "axis": Plain(), "radius": METRE, "side": Plain(), **MOTION}),
-        "groove": Kind(
-            Groove,
-            {
-                "profile": METRE,
-                "point": METRE,
-                "axis": Plain(),
-                "up": Plain(),
-                "fillet": METRE,
-                "roller": METRE,
-                **MOTION,
-            },
-        ),
-    }
-)
+SURFACES = {
+    "plane": Kind(Plane, {"point": METRE, "normal": Plain(), **MOTION}),
+    "cylinder": Kind(Cylinder, {"point": METRE, "axis": Plain(), "radius": METRE, "side": Plain(), **MOTION}),
+    "groove": Kind(
+        Groove,
+        {
+            "profile": METRE,
+            "point": METRE,
+            "axis": Plain(),
+            "up": Plain(),
+            "fillet": METRE,
+            "roller": METRE,
+            **MOTION,
+        },
+    ),
+}
 STIFFNESS = Quantity("N/m**2")
+PENALTIES = {
+    "penalty": Kind(Penalty, {"eps_N": STIFFNESS, "g_0": METRE}),
+    "smooth_penalty": Kind(SmoothPenalty, {"eps_N": STIFFNESS, "foot": METRE, "g_0": METRE}),
+}
+LAWS = {"paper": Penalty.paper, "tight": Penalty.tight}
+DRY = {"coulomb": Kind(Coulomb, {"mu": Plain(), "eps_T": STIFFNESS})}
 CONTACT = Kind(
     Contact,
     {
         "law": Choice(
-            {
-                "penalty": Kind(Penalty, {"eps_N": STIFFNESS, "g_0": METRE}),
-                "smooth_penalty": Kind(SmoothPenalty, {"eps_N": STIFFNESS, "foot": METRE, "g_0": METRE}),
-                "augmented_lagrangian": Kind(AugmentedLagrangian, {"eps_N": STIFFNESS, "tolerance": METRE}),
-            },
-            words={"paper": Penalty.paper, "tight": Penalty.tight},
+            PENALTIES | {"augmented_lagrangian": Kind(AugmentedLagrangian, {"eps_N": STIFFNESS, "tolerance": METRE})},
+            words=LAWS,
         ),
-        "friction": Choice(
-            {
-                "coulomb": Kind(Coulomb, {"mu": Plain(), "eps_T": STIFFNESS}),
-                "creeping_coulomb": Kind(CreepingCoulomb, {"mu": Plain(), "v_0": Quantity("m/s")}),
-            }
-        ),
+        "friction": Choice(DRY | {"creeping_coulomb": Kind(CreepingCoulomb, {"mu": Plain(), "v_0": Quantity("m/s")})}),
         "rod": Plain(),
     },
+)
+TOUCHED = Choice(
+    SURFACES
+    | {"rods": Kind(RodContact, {"law": Choice(PENALTIES, words=LAWS), "friction": Choice(DRY), "rods": Plain()})}
 )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.scene.contact import Contact
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
 from dolfinrod.scene.quantity import VectorLike, assign, vector
 from dolfinrod.scene.shape import unit
@@ -60,6 +61,7 @@ def detect(scene: Scene) -> Planar | Spatial:
     The normal of a plane must be a principal axis of every section; so d3 and then d2 of the first rod are tried, and
     where its section is the same in all directions, whatever plane its axis spans with a load, a prescribed motion, a
     velocity at the start, the air or a surface. Air whose flow is a function is taken to lead out of every plane.
+    Rods that touch one another stay in a plane in which all of them lie: mirrored at it, they push each other along it.
 
     Args:
         scene: Any scene.
@@ -101,7 +103,7 @@ def obstacle(scene: Scene, plane: Planar) -> str | None:
         if not parallel(velocity.omega, N) or np.abs(v @ N).max() > TOLERANCE * np.abs(v).max():
             return f"velocities[{i}] leads out of the plane"
     for i, contact in enumerate(scene.contacts):
-        if not keeps_plane(contact, N, origin):
+        if isinstance(contact, Contact) and not keeps_plane(contact, N, origin):
             return f"contacts[{i}] may lead out of the plane"
     if scene.air is not None and (callable(scene.air.field) or not normal_to(scene.air.field, N)):
         return "air may flow out of the plane"
@@ -140,7 +142,7 @@ def _spanned(scene: Scene, d1: np.ndarray) -> list[np.ndarray]:
     moves += [max(_moved(scene, v), key=lambda v: float(np.linalg.norm(np.cross(d1, v)))) for v in scene.velocities]
     moves += [] if scene.air is None or callable(scene.air.field) else [scene.air.field]
     spins = [np.asarray(velocity.omega) for velocity in scene.velocities]
-    walls = [v for c in scene.contacts for v in planes_through(c, scene.rods[0].centerline(0.0), d1)]
+    walls = [v for c in scene.walls for v in planes_through(c, scene.rods[0].centerline(0.0), d1)]
     normals = [*(np.cross(d1, v) for v in [*forces, *moves]), *moments, *turns, *spins, *walls]
     return [v / np.linalg.norm(v) for v in normals if np.linalg.norm(v) > 0.0]
 

@@ -9,14 +9,14 @@ from operator import itemgetter
 
 from dolfinrod.scene.air import Air
 from dolfinrod.scene.contact import Contact
+from dolfinrod.scene.contacts import check_contacts
 from dolfinrod.scene.errors import SceneError, quoted
-from dolfinrod.scene.friction import CreepingCoulomb
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, Load, PointForce, PointMoment
 from dolfinrod.scene.motion import Dynamic, Motion, Static
 from dolfinrod.scene.quantity import Place, assign
 from dolfinrod.scene.rod import Rod
+from dolfinrod.scene.rodcontact import RodContact
 from dolfinrod.scene.supports import Clamp, Guide, Pin, Prescribed, Support
-from dolfinrod.scene.surfaces import refuse_sharp
 from dolfinrod.scene.velocity import Velocity
 
 __all__ = ["MOST_PARTS", "Scene"]
@@ -38,7 +38,7 @@ class Scene:
         rods: At least one.
         supports: What holds them.
         loads: What acts on them.
-        contacts: What they touch.
+        contacts: What they touch: surfaces, and one another.
         air: What flows past the rods; None: nothing.
         motion: How the scene moves on.
         velocities: How the rods move at the start of a Dynamic motion.
@@ -50,7 +50,7 @@ class Scene:
     rods: Sequence[Rod]
     supports: Sequence[Support] = ()
     loads: Sequence[Load] = ()
-    contacts: Sequence[Contact] = ()
+    contacts: Sequence[Contact | RodContact] = ()
     air: Air | None = None
     motion: Motion = field(default_factory=Static)
     velocities: Sequence[Velocity] = ()
@@ -70,8 +70,18 @@ class Scene:
                 self._check_places(part, f"{name}[{i}]")
         self._check_density()
         self._check_motion()
-        self._check_contacts()
+        check_contacts(self)
         self._check_supports()
+
+    @property
+    def walls(self) -> tuple[Contact, ...]:
+        """Contacts with surfaces, in the order of `contacts`; with them goes `Result.contacts`."""
+        return tuple(contact for contact in self.contacts if isinstance(contact, Contact))
+
+    @property
+    def meetings(self) -> tuple[RodContact, ...]:
+        """Contacts of rods with rods, in the order of `contacts`; with them goes `Result.meetings`."""
+        return tuple(contact for contact in self.contacts if isinstance(contact, RodContact))
 
     def location(self, at: Place, rod: int | None) -> list[tuple[int, float]]:
         """Where a support or load sits.
@@ -109,8 +119,11 @@ class Scene:
         return tuple(marks)
 
     def may_touch(self, rod: int) -> bool:
-        """Whether there is anything for a rod to touch."""
-        return any(contact.rod in (None, rod) for contact in self.contacts)
+        """Whether there is anything for a rod to touch, itself not counted: that cannot hold it."""
+        others = (contact.among(len(self.rods)) for contact in self.meetings)
+        return any(wall.rod in (None, rod) for wall in self.walls) or any(
+            rod in among and len(among) > 1 for among in others
+        )
 
     def _check_kinds(self) -> None:
         """Every entry is of the kind its place asks for."""
@@ -118,7 +131,7 @@ class Scene:
             "rods": (Rod,),
             "supports": SUPPORTS,
             "loads": (*POINT_LOADS, LineForce, Gravity),
-            "contacts": (Contact,),
+            "contacts": (Contact, RodContact),
             "velocities": (Velocity,),
         }
         for name, allowed in kinds.items():
@@ -183,24 +196,6 @@ class Scene:
             if self.air is not None and rod.section.radius is None:
                 needed = "must be given [m], since air drags the rod, got None"
                 raise SceneError(needed, field=f"rods[{k}].section.radius")
-
-    def _check_contacts(self) -> None:
-        """What touches has a surface of its own, and friction against the velocity a motion in time."""
-        for i, contact in enumerate(self.contacts):
-            if contact.rod is not None and contact.rod >= len(self.rods):
-                below = f"must be below {len(self.rods)}, the number of rods, got {contact.rod}"
-                raise SceneError(below, field=f"contacts[{i}].rod")
-            for k in range(len(self.rods)) if contact.rod is None else (contact.rod,):
-                radius = self.rods[k].section.radius
-                if radius is None:
-                    needed = f"must be given [m], since the rod may touch contacts[{i}], got None"
-                    raise SceneError(needed, field=f"rods[{k}].section.radius")
-                refuse_sharp(contact.surface, radius, contact.law.g_0, f"contacts[{i}].surface")
-            if isinstance(contact.friction, CreepingCoulomb) and isinstance(self.motion, Static):
-                raise SceneError(
-                    "must not be CreepingCoulomb, since motion is Static: it acts against velocities",
-                    field=f"contacts[{i}].friction",
-                )
 
     def _check_supports(self) -> None:
         """No component is held twice at one place; prescribed motions compose."""

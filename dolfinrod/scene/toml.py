@@ -32,10 +32,14 @@
     law.penalty = { eps_N = "4e5 N/m**2", g_0 = "1 um" }
     friction.coulomb = { mu = 0.64 }
 
+    [[contacts]]
+    rods = { law = "tight", friction.coulomb = { mu = 0.3 }, rods = [0, 1] }
+
 Plain numbers are SI. A section is `circle`, `rectangle` or `ramie`, or has the fields of `Section` itself. A history is
 "steady" or rows [t, factor]; a displacement that is not prescribed is "free". Without a table `motion` the scene is
 static. The file of a rod `from_mesh` is sought from the folder of the scene file. The law of a contact may be "paper"
-or "tight" instead of a table; a table `motion` of its surface says how that moves.
+or "tight" instead of a table; a table `motion` of its surface says how that moves. Contact of rods with rods is a table
+`rods`, those it names or all.
 """
 
 from __future__ import annotations
@@ -50,10 +54,11 @@ from dolfinrod.scene import source
 from dolfinrod.scene.contact import Contact
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.fields import Specific
-from dolfinrod.scene.kinds import AIR, CONTACT, LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS, SURFACES, VELOCITIES
+from dolfinrod.scene.kinds import AIR, CONTACT, LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS, TOUCHED, VELOCITIES
 from dolfinrod.scene.motion import Static
 from dolfinrod.scene.options import options
 from dolfinrod.scene.rod import Rod
+from dolfinrod.scene.rodcontact import RodContact
 from dolfinrod.scene.scene import MOST_PARTS, Scene
 from dolfinrod.scene.section import Section
 from dolfinrod.scene.shape import UniformCurvature
@@ -143,10 +148,7 @@ def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
         "rods": [_shape(rod, f"rods[{i}]") | {"section": names[rod.section]} for i, rod in enumerate(scene.rods)],
         "supports": [SUPPORTS.write(part, f"supports[{i}]") for i, part in enumerate(scene.supports)],
         "loads": [LOADS.write(part, f"loads[{i}]") for i, part in enumerate(scene.loads)],
-        "contacts": [
-            SURFACES.write(part.surface, f"contacts[{i}]") | CONTACT.told(part, f"contacts[{i}]")
-            for i, part in enumerate(scene.contacts)
-        ],
+        "contacts": [_touching(part, f"contacts[{i}]") for i, part in enumerate(scene.contacts)],
         "air": {} if scene.air is None else AIR.told(scene.air, "air"),
         "motion": MOTIONS.write(scene.motion, "motion"),
         "velocities": [VELOCITIES.told(v, f"velocities[{i}]") for i, v in enumerate(scene.velocities)],
@@ -190,14 +192,25 @@ def _rod(table: Any, path: str, sections: Mapping[str, Section], folder: Path) -
     return rod
 
 
-def _contact(table: Any, path: str) -> Contact:
-    """A contact: the surface its table names, and the laws beside it."""
+def _contact(table: Any, path: str) -> Contact | RodContact:
+    """A contact: the surface its table names and the laws beside it; or a table of rods, with laws of its own."""
     table = table_of(table, path)
-    refuse_unknown(table, (*SURFACES.kinds, *CONTACT.fields), path)
+    refuse_unknown(table, (*TOUCHED.kinds, *CONTACT.fields), path)
     laws = {name: table[name] for name in CONTACT.fields if name in table}
-    surface = SURFACES.read({name: table[name] for name in SURFACES.kinds if name in table}, path)
-    contact: Contact = CONTACT.read(laws, path, surface=surface)
+    touched = TOUCHED.read({name: table[name] for name in TOUCHED.kinds if name in table}, path)
+    if isinstance(touched, RodContact):
+        for name in laws:
+            raise SceneError("must be left out here, and may stand in the table rods", field=f"{path}.{name}")
+        return touched
+    contact: Contact = CONTACT.read(laws, path, surface=touched)
     return contact
+
+
+def _touching(contact: Contact | RodContact, path: str) -> dict[str, Any]:
+    """The table of a contact."""
+    if isinstance(contact, RodContact):
+        return TOUCHED.write(contact, path)
+    return TOUCHED.write(contact.surface, path) | CONTACT.told(contact, path)
 
 
 def _list(data: Mapping[str, Any], name: str) -> list[Any]:
