@@ -17,7 +17,7 @@ import ufl
 from dolfinx import fem, mesh
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -26,7 +26,6 @@ __all__ = [
     "FormKind",
     "abstract_spaces",
     "cell_dofs",
-    "cell_ends",
     "function",
     "held_dofs",
     "interval_mesh",
@@ -54,7 +53,7 @@ def at_quadrature(degree: int, dim: int) -> ufl.FiniteElementBase:
 def interval_mesh(comm: MPI.Comm, nodes: Sequence[NDArray[np.float64]]) -> tuple[mesh.Mesh, NDArray[np.int64]]:
     """One mesh of disjoint intervals, one a rod, each parametrised by its own arc length.
 
-    Rank 0 hands over all cells; DOLFINx distributes them (a rank may receive none).
+    Rank 0 hands over all cells; DOLFINx distributes them (a rank may receive none), whole rods where these are enough.
 
     Args:
         comm: Communicator of the mesh.
@@ -72,14 +71,16 @@ def interval_mesh(comm: MPI.Comm, nodes: Sequence[NDArray[np.float64]]) -> tuple
     if comm.rank != 0:
         cells, points = cells[:0], points[:0]
     domain = ufl.Mesh(ufl.VectorElement("Lagrange", INTERVAL, 1))
-    rods = mesh.create_mesh(comm, cells.astype(np.int64), points, domain)
+    dealt = {"partitioner": _dealt(counts - 1, comm.size)} if 1 < comm.size <= len(counts) else {}
+    rods = mesh.create_mesh(comm, cells.astype(np.int64), points, domain, **dealt)
     return rods, np.asarray(rods.topology.original_cell_index, dtype=np.int64)
 
 
-def cell_ends(rods: mesh.Mesh) -> NDArray[np.float64]:
-    """Arc length of both ends of every local cell, shape (cells, 2)."""
-    links = rods.geometry.dofmap.array.reshape(-1, 2)
-    return np.asarray(rods.geometry.x[links, 0])
+def _dealt(elements: NDArray[np.int64], n: int) -> Callable[..., cpp.graph.AdjacencyList_int32]:
+    """What deals rods of so many elements out to n ranks, neighbours in the list together."""
+    middle = (np.cumsum(elements) - 0.5 * elements) / elements.sum()
+    rank = np.repeat((n * middle).astype(np.int32), elements)[:, None]
+    return lambda *given: cpp.graph.AdjacencyList_int32(rank[: given[3].num_nodes])
 
 
 def n_owned_cells(rods: mesh.Mesh) -> int:

@@ -143,4 +143,5 @@ def _record(scene: Scene, march: March, seconds: tuple[float, float, float], *, 
         ),
         state=moving_state(march),
         contacts=readout.contacts(states),
+        meetings=readout.meetings(states),
     )

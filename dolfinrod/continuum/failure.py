@@ -30,7 +30,9 @@ def findings(readout: Readout, path: Path, failure: StepFailed) -> Findings:
     problem, t = readout.problem, path.t[-1]
     readout.restore(path.states[-1])
     turned = largest_turn_between_nodes(problem)
-    critical = critical_ahead(readout, path.states[-1], t) if path.log else float("inf")
+    # What is ahead is not known of rods that touch one another.
+    seen = bool(path.log) and problem.pairs is None
+    critical = critical_ahead(readout, path.states[-1], t) if seen else float("inf")
     near = critical - t < CLOSE * problem.scene.motion.t_end
     return Findings(
         t=t,

@@ -20,7 +20,9 @@ ROOM, DOUBLINGS = 200, 6
 
 
 class NegativePivots:
-    """Negative eigenvalues of symmetric matrices of one pattern, counted in their factors LDLᵀ by MUMPS (Sylvester).
+    """Negative eigenvalues of symmetric matrices, counted in their factors LDLᵀ by MUMPS (Sylvester).
+
+    The symbolic factors of one matrix serve again when it has other values.
 
     Args:
         comm: Communicator of the matrices.
@@ -28,10 +30,14 @@ class NegativePivots:
 
     def __init__(self, comm: MPI.Comm) -> None:
         self._comm, self._pc, self._room = comm, None, ROOM
+        self._matrix: PETSc.Mat | None = None
 
     def count(self, A: PETSc.Mat) -> int:
         """How many there are."""
         A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        if self._matrix is not A:
+            self.close()
+            self._matrix = A
         for _ in range(DOUBLINGS):
             try:
                 return self._count(A)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.checkpoint import columns, rows
+from dolfinrod.continuum.met import is_ragged
 from dolfinrod.continuum.restart import moving_state, shapes, take_up
 from dolfinrod.continuum.stepping import Path
 from dolfinrod.continuum.trajectory import Mark
@@ -56,7 +57,7 @@ def resume_motion(march: March, kept: Kept) -> None:
     """
     first, added = shapes(march)
     shape = first | added if "state/a" in kept.arrays else first
-    state = {name: kept.take(f"state/{name}", of) for name, of in shape.items()}
+    state = {name: _taken(kept, f"state/{name}", of, ragged=is_ragged(name)) for name, of in shape.items()}
     trajectory = march.trajectory
     trajectory.t, trajectory.states = _states(kept, march.state())
     n = len(trajectory.t)
@@ -102,12 +103,29 @@ def _work(**numbers: float) -> Arrays:
 
 def _stored(t: Sequence[float], states: Sequence[State]) -> Arrays:
     """States as one array a field."""
-    fields = {f"stored/{name}": np.stack([state[name] for state in states]) for name in states[0]}
+    met = [name for name in states[0] if is_ragged(name)]
+    fields = {f"stored/{name}": np.stack([state[name] for state in states]) for name in states[0] if name not in met}
+    fields |= {f"stored/{name}": np.concatenate([state[name] for state in states]) for name in met}
+    fields |= {f"rows/{name}": np.array([float(len(state[name])) for state in states]) for name in met}
     return fields | {"stored/t": np.array(t)}
 
 
 def _states(kept: Kept, like: Mapping[str, NDArray[np.float64]]) -> tuple[list[float], list[State]]:
     """Times and states back from such arrays."""
     times = kept.times("stored/t").tolist()
-    fields = {name: kept.take(f"stored/{name}", (len(times), *values.shape)) for name, values in like.items()}
+    fields: dict[str, Sequence[NDArray[np.float64]]] = {}
+    for name, values in like.items():
+        if not is_ragged(name):
+            fields[name] = list(kept.take(f"stored/{name}", (len(times), *values.shape)))
+            continue
+        rows = np.cumsum(kept.take(f"rows/{name}", (len(times),))).astype(np.int64)
+        fields[name] = np.split(kept.take(f"stored/{name}", (int(rows[-1]), *values.shape[1:])), rows[:-1])
     return times, [{name: values[k] for name, values in fields.items()} for k in range(len(times))]
+
+
+def _taken(kept: Kept, name: str, shape: tuple[int, ...], *, ragged: bool) -> NDArray[np.float64]:
+    """An array of a shape, or of any number of such rows."""
+    found = kept.arrays.get(name)
+    if ragged and found is not None and found.ndim:
+        shape = (len(found), *shape[1:])
+    return kept.take(name, shape)

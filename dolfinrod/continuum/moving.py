@@ -17,7 +17,7 @@ from dolfinrod.continuum.turning import NoTurning, Turning
 from dolfinrod.scene import Gravity, LineForce, Steady
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable
 
     from petsc4py import PETSc
 
@@ -197,9 +197,9 @@ class Moving(Problem):
                 backend.add_entries(A, *self.entries(*block))
         A.assemble()
 
-    def _contact_stiffnesses(self) -> Iterator[Block]:
+    def _contact_stiffnesses(self) -> Iterable[Block]:
         """None among those by the state between: contact is linearised by the one after the step."""
-        return iter(())
+        return ()
 
     def _add_drag(self, A: PETSc.Mat, drag: Drag) -> None:
         """Tangent of the air's force."""

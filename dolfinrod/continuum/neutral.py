@@ -18,6 +18,7 @@ from petsc4py import PETSc
 import numpy as np
 from scipy.linalg import qr
 
+from dolfinrod.continuum.coupled import coupled
 from dolfinrod.scene.mechanism import named, null_space
 
 if TYPE_CHECKING:
@@ -63,6 +64,13 @@ class PhaseCondition:
             in_space = np.concatenate([z[:, : kin.dim] @ place.axes.T, z[:, kin.dim :] @ place.spin_axes.T], axis=1)
             self.notes += tuple(f"{words}: balanced, held by a phase condition" for words in named(rod, in_space))
         self._problem.hold(np.zeros(0, dtype=np.int32))
+
+    def hold_unresisted(self) -> None:
+        """Hold the free motions that nothing resists at the current state, with no others held."""
+        A = self._problem.discretization.matrix
+        self._problem.assemble_tangent(A)
+        with coupled(A, self._problem) as tangent:
+            self.hold_null(tangent)
 
     def hold_null(self, *matrices: PETSc.Mat) -> None:
         """Hold the free motions that all of these matrices, assembled with none held, map to zero."""
@@ -181,7 +189,7 @@ def equilibrium(newton: Newton, phase: PhaseCondition, last: NDArray[np.float64]
     else:
         # Only what no surface resists, either, is free.
         newton.problem.hold(np.zeros(0, dtype=np.int32))
-        phase.hold_null(newton.tangent())
+        phase.hold_unresisted()
     found = newton.solve(last)
     while found.converged and phase.drop_pushed():
         again = newton.solve()

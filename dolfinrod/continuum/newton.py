@@ -17,7 +17,8 @@ from petsc4py import PETSc
 
 import numpy as np
 
-from dolfinrod.continuum.direct import LIBRARY_ERROR, lu
+from dolfinrod.continuum.coupled import linear_solver
+from dolfinrod.continuum.direct import LIBRARY_ERROR
 from dolfinrod.continuum.pressed import pressed, renewed
 from dolfinrod.continuum.watch import Unwatched, Watch
 
@@ -104,7 +105,7 @@ class Newton:
         snes.setConvergenceTest(self._test)
         ksp = snes.getKSP()
         ksp.setType(PETSc.KSP.Type.PREONLY)
-        self._lu = lu(ksp.getPC(), self._A, self.problem.discretization.band)
+        self._lu = linear_solver(ksp.getPC(), self._A, self.problem)
         database, option = PETSc.Options(), "rod_snes_linesearch_type"
         database[option] = "basic"
         snes.setFromOptions()
@@ -153,11 +154,6 @@ class Newton:
         if self._lu is not None and self._lu.singular:
             return SINGULAR
         return int(self.snes.getConvergedReason())
-
-    def tangent(self) -> PETSc.Mat:
-        """The tangent at the problem's state."""
-        self.problem.assemble_tangent(self._A)
-        return self._A
 
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together: the garbage collector would do it on each at its own time."""

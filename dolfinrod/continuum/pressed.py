@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from dolfinrod.continuum.contact import Contacts
     from dolfinrod.continuum.newton import Outcome
+    from dolfinrod.continuum.together import Touching
 
     Find = Callable[[int, float], Outcome]
 
@@ -30,7 +30,7 @@ MOST_RENEWALS = 50
 PENETRATES = "penetrations stayed above the tolerance of an augmented Lagrangian: its eps_N is too small for these rods"
 
 
-def pressed(x: NDArray[np.float64], contacts: Contacts, find: Find, most: int, fine: float) -> Outcome:
+def pressed(x: NDArray[np.float64], contacts: Touching, find: Find, most: int, fine: float) -> Outcome:
     """Equilibrium with multipliers as they are.
 
     Args:
@@ -62,7 +62,7 @@ def pressed(x: NDArray[np.float64], contacts: Contacts, find: Find, most: int, f
     return replace(found, iterations=spent + found.iterations)
 
 
-def renewed(contacts: Contacts, find: Callable[[], Outcome]) -> Outcome:
+def renewed(contacts: Touching, find: Callable[[], Outcome]) -> Outcome:
     """Equilibrium with multipliers in line with it.
 
     Args:

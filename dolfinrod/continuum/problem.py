@@ -10,16 +10,16 @@ import numpy as np
 
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.constraints import Constraints
-from dolfinrod.continuum.contact import Contacts
 from dolfinrod.continuum.discretization import Discretization, Values
 from dolfinrod.continuum.layout import Layout
 from dolfinrod.continuum.loading import line_loads, point_terms
 from dolfinrod.continuum.placement import exact_zeros
 from dolfinrod.continuum.rubbing import contact_terms
+from dolfinrod.continuum.together import touching
 from dolfinrod.scene.history import factor
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from petsc4py import PETSc
 
@@ -54,7 +54,10 @@ class Problem:
         R_0: Stress-free frames at those nodes, shape (cells, k + 1, 3, 3).
         spins: Section axes at the Gauss points in components of spin, shape (cells, points, n_spin, 3).
         held_force: Residual on this rank at the dofs given to `hold`.
-        contacts: What the rods touch; None where the scene has nothing to touch.
+        walls: The surfaces that rods touch; None where the scene has none.
+        pairs: The rods that touch one another; None where none may.
+        contacts: Both together; None where there is nothing to touch.
+        excluded: Whether a dof on this rank is held.
         terms: Names of all that acts.
         line_loads: History and full residual of each line load.
     """
@@ -74,7 +77,7 @@ class Problem:
         self.hold(np.zeros(0, dtype=np.int32))
         self._point_terms = point_terms(scene, self.kinematics, placement, self._locate_owned)
         self.line_loads = list(zip(self._line_histories, discretization.line_loads(self._line_fields), strict=True))
-        self.contacts = Contacts(self, self.level) if scene.walls else None
+        self.walls, self.pairs, self.contacts = touching(self)
         self.terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads), *contact_terms(scene))
         self.advance_to(0.0)
 
@@ -124,8 +127,8 @@ class Problem:
         """Hold these dofs where they are, on top of the supports, until the next call."""
         n_owned = self.discretization.n_owned
         held = np.union1d(self.constraints.dofs, dofs).astype(np.int32)
-        self._excluded = np.zeros(len(self.x), dtype=bool)
-        self._excluded[held] = True
+        self.excluded = np.zeros(len(self.x), dtype=bool)
+        self.excluded[held] = True
         self._mask = backend.held_dofs(self.discretization.x, held)
         self._held = held[held < n_owned]
         self._extra = dofs[dofs < n_owned]
@@ -188,12 +191,14 @@ class Problem:
     @property
     def conservative(self) -> bool:
         """Whether the acting loads have a potential, so that the tangent is symmetric."""
-        mine = all(self._is_symmetric(*block) for block in self._stiffnesses(on_sphere=True))
+        # All of them first: ranks work out together what rods do to each other.
+        blocks = list(self._stiffnesses(on_sphere=True))
+        mine = all(self._is_symmetric(*block) for block in blocks)
         return bool(self.discretization.comm.allreduce(mine, op=MPI.LAND))
 
     def _is_symmetric(self, rows: NDArray[np.int32], columns: NDArray[np.int32], blocks: NDArray[np.float64]) -> bool:
         """Whether such blocks are, but for round-off and for held dofs."""
-        free = blocks * ~(self._excluded[rows][:, :, None] | self._excluded[columns][:, None, :])
+        free = blocks * ~(self.excluded[rows][:, :, None] | self.excluded[columns][:, None, :])
         skew = free - np.swapaxes(free, 1, 2) if np.array_equal(rows, columns) else free
         return bool(np.abs(skew).max(initial=0.0) <= ROUND_OFF * np.abs(blocks).max(initial=0.0))
 
@@ -216,9 +221,9 @@ class Problem:
             yield rows, columns, values
         yield from self._contact_stiffnesses()
 
-    def _contact_stiffnesses(self) -> Iterator[Block]:
+    def _contact_stiffnesses(self) -> Iterable[Block]:
         """That of what the rods touch."""
-        return iter(()) if self.contacts is None else self.contacts.blocks(self.x[self.contacts.q])
+        return () if self.contacts is None else self.contacts.blocks(self.x[self.contacts.q])
 
     def assemble_tangent(self, A: PETSc.Mat, *, on_sphere: bool = False) -> None:
         """Tangent at the current state and time, unit rows and columns for held dofs.
@@ -241,5 +246,5 @@ class Problem:
         """Entries of dense blocks, one for each row of (rows, columns), leaving out held dofs."""
         I = np.repeat(rows, columns.shape[1], axis=1).ravel()
         J = np.tile(columns, (1, rows.shape[1])).ravel()
-        keep = ~(self._excluded[I] | self._excluded[J])
+        keep = ~(self.excluded[I] | self.excluded[J])
         return I[keep], J[keep], blocks.ravel()[keep]

@@ -10,6 +10,7 @@ import numpy as np
 from dolfinrod.continuum import reference
 from dolfinrod.continuum.couples import Couples
 from dolfinrod.continuum.lumped import node_lengths
+from dolfinrod.continuum.met import meeting_histories
 from dolfinrod.continuum.recovery import Sections
 from dolfinrod.continuum.rubbing import rubs
 from dolfinrod.continuum.touched import contact_histories
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.problem import Problem
-    from dolfinrod.result import ContactHistory
+    from dolfinrod.result import ContactHistory, MeetingHistory
 
 __all__ = ["Readout"]
 
@@ -68,20 +69,23 @@ class Readout:
         return self.gather(nodal=nodal, **fields) | self.touched()
 
     def touched(self) -> State:
-        """What the nodes remember of contacts, if there are any, and the couples of friction."""
-        contacts = self.problem.contacts
-        if contacts is None:
-            return {}
-        couples = {} if self._couples is None else {"couples": self._couples.rates()}
-        return self.gather(touch=contacts.kept(), **couples)
+        """What is remembered of contacts, if there are any, and the couples of friction."""
+        walls, pairs = self.problem.walls, self.problem.pairs
+        touched = {} if walls is None else {"touch": walls.kept()}
+        if self._couples is not None:
+            touched["couples"] = self._couples.rates()
+        met = {} if pairs is None else pairs.kept()
+        return (self.gather(**touched) if touched else {}) | met
 
     def restore(self, state: State) -> None:
         """Make a gathered state the current one."""
         d = self.problem.discretization
         for field, dofs in d.dofs.items():
             self.problem.x[dofs] = state[field][d.cell]
-        if self.problem.contacts is not None and "touch" in state:
-            self.problem.contacts.recall(state["touch"][d.cell])
+        if self.problem.walls is not None and "touch" in state:
+            self.problem.walls.recall(state["touch"][d.cell])
+        if self.problem.pairs is not None:
+            self.problem.pairs.recall(state)
 
     def energy(self) -> float:
         """Strain energy ∫ ½ n·C_n n + ½ m·C_m m ds at the current state [J]."""
@@ -109,7 +113,7 @@ class Readout:
     def contacts(self, states: list[State]) -> tuple[ContactHistory, ...]:
         """One history a contact from the gathered states."""
         p = self.problem
-        if p.contacts is None:
+        if p.walls is None:
             return ()
         lengths = node_lengths(p)[p.discretization.dofs["r"][:, self._order, :1]] * p.placement.length
         shares = self.gather(share=lengths)["share"]
@@ -117,6 +121,10 @@ class Readout:
         first = list(pairwise(np.concatenate([[0], np.cumsum(p.discretization.elements)])))
         of_rods = [_joined(shares[None, a:b])[0, :, 0] for a, b in first], [_joined(touched[:, a:b]) for a, b in first]
         return contact_histories(p.scene.walls, self.histories(states), *of_rods)
+
+    def meetings(self, states: list[State]) -> tuple[MeetingHistory, ...]:
+        """One history a contact of rods with rods."""
+        return meeting_histories(states, len(self.problem.scene.meetings))
 
     def rates(self, states: list[State], second: float) -> tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...]:
         """Velocity [m/s] and spin [rad/s] of the nodes of each rod in space, from gathered states that hold them."""

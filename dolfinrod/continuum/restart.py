@@ -9,6 +9,7 @@ import numpy as np
 
 from dolfinrod.checkpoint import goes_on
 from dolfinrod.continuum import backend
+from dolfinrod.continuum.met import is_ragged
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.trajectory import Mark
 from dolfinrod.scene import SceneError
@@ -20,13 +21,14 @@ if TYPE_CHECKING:
 
     from dolfinrod.continuum.march import March
     from dolfinrod.continuum.moving import Moving
+    from dolfinrod.continuum.problem import Problem
     from dolfinrod.continuum.readout import Readout, State
     from dolfinrod.result import Result
     from dolfinrod.scene import Scene
 
     Array = NDArray[np.float64]
 
-__all__ = ["follow_on", "moving_state", "rates", "shapes", "take_up"]
+__all__ = ["follow_on", "meet_again", "moving_state", "rates", "shapes", "shapes_of_fields", "take_up"]
 
 
 def rates(problem: Moving, readout: Readout) -> State:
@@ -69,8 +71,12 @@ def moving_state(march: March) -> State:
 
 def shapes(march: March) -> tuple[dict[str, tuple[int, ...]], dict[str, tuple[int, ...]]]:
     """Shapes of what `moving_state` gives before any step, and of what is added by one."""
-    first = {name: values.shape for name, values in moving_state(march).items()}
+    first = _shapes(moving_state(march))
     return first, {"a": first["v"], "h": ()}
+
+
+def _shapes(state: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
+    return {name: values.shape for name, values in state.items()}
 
 
 def take_up(march: March, state: Mapping[str, Array], mark: Mark) -> None:
@@ -100,9 +106,33 @@ def take_up(march: March, state: Mapping[str, Array], mark: Mark) -> None:
     touched = None
     if problem.contacts is not None:
         problem.x[:] = x
-        problem.contacts.recall(state["touch"][d.cell])
+        if problem.walls is not None:
+            problem.walls.recall(state["touch"][d.cell])
+        if problem.pairs is not None:
+            problem.pairs.recall(state)
         touched = problem.contacts.memory()
     march.take_up(replace(mark, x=x, motion=motion, touched=touched))
+
+
+def meet_again(problem: Problem, start: Result, t: float) -> None:
+    """Take up at pseudo-time t what an earlier result remembers of the same surfaces and rods; others are met anew."""
+    walls, pairs = problem.walls, problem.pairs
+    if walls is not None:
+        if start.scene.walls == problem.scene.walls:
+            walls.recall(start.state["touch"][problem.discretization.cell], t)
+        else:
+            walls.place(t)
+    if pairs is not None:
+        if start.scene.meetings == problem.scene.meetings:
+            pairs.recall(start.state, t)
+        else:
+            pairs.place(t)
+
+
+def shapes_of_fields(state: Mapping[str, Array]) -> dict[str, tuple[int, ...]]:
+    """Of all values of a state but those of contacts."""
+    of_contacts = "touch", "couples"
+    return {name: of for name, of in _shapes(state).items() if name not in of_contacts and not is_ragged(name)}
 
 
 def follow_on(march: March, start: Result, scene: Scene) -> None:
@@ -126,7 +156,7 @@ def follow_on(march: March, start: Result, scene: Scene) -> None:
     if t > motion.t_end:
         raise SceneError(f"must end before t_end = {motion.t_end} s, got {t} s", field="start")
     first, added = shapes(march)
-    found = {name: values.shape for name, values in state.items()}
+    found, first = ({name: of for name, of in each.items() if not is_ragged(name)} for each in (_shapes(state), first))
     if found not in (first, first | added):
         raise SceneError("start must be a result on the same elements, degree and kinematics")
     unit = march.problem.placement.moment

@@ -24,4 +24,8 @@ def remembers(scene: Scene) -> bool:
 
 def contact_terms(scene: Scene) -> tuple[str, ...]:
     """What contact adds to the balance of a scene, in words."""
-    return (*(("Contact",) if scene.contacts else ()), *(("Friction",) if rubs(scene) else ()))
+    return (
+        *(("Contact",) if scene.walls else ()),
+        *(("Rod contact",) if scene.meetings else ()),
+        *(("Friction",) if rubs(scene) else ()),
+    )

@@ -164,6 +164,11 @@ def opened(
             "must not rub nor have multipliers here: such contact has a memory, and no tangent tells what is critical",
             field="contacts",
         )
+    if scene.meetings:
+        raise SceneError(
+            "must not hold RodContact here: critical loads and vibrations of rods that touch one another are not known",
+            field="contacts",
+        )
     chosen = choose(scene, Spatial() if kinematics is None else kinematics)
     rods: Kinematics = PlanarRods() if isinstance(chosen, Planar) else SpatialRods()
     comm = MPI.COMM_WORLD if comm is None else comm

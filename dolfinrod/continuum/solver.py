@@ -21,6 +21,7 @@ from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.readout import Readout
+from dolfinrod.continuum.restart import meet_again, shapes_of_fields
 from dolfinrod.continuum.rubbing import remembers, rubs
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stability import judging
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from dolfinrod.continuum.kinematics import Kinematics
-    from dolfinrod.continuum.readout import State
     from dolfinrod.result import StepLog
     from dolfinrod.scene import Scene
 
@@ -116,14 +116,16 @@ def _path(
             seconds_solve=seconds_solve,
             seconds_stability=path.seconds_stability,
         )
-        notes = (*phase.notes, *_judged(scene, in_space=in_space or rods.dim == 3))
+        notes = (*phase.notes, *_judged(scene, path, in_space=in_space or rods.dim == 3))
         return record(problem, notes, readout, path, statistics, converged=failure is None), failure
 
 
-def _judged(scene: Scene, *, in_space: bool) -> tuple[str, ...]:
+def _judged(scene: Scene, path: Path, *, in_space: bool) -> tuple[str, ...]:
     """What a user should know of how stability was judged."""
     if remembers(scene):
         return ("stability not judged: contact that rubs, or has multipliers, has a memory",)
+    if scene.meetings and path.stable is None:
+        return ("stability not judged: rods touch one another under loads without a potential",)
     return () if in_space else ("stability judged in the plane only",)
 
 
@@ -198,14 +200,14 @@ def _begin(
     t = 0.0
     if start is not None:
         state = readout.state()
-        if _shapes(state) != _shapes(start.state):
+        if shapes_of_fields(state) != shapes_of_fields(start.state):
             raise SceneError("start must be a result on the same elements, degree and kinematics")
         place = readout.problem.placement
         before = Placement.of(start.scene, choose(start.scene, kinematics))
         readout.restore(start.state if place.coincides(before) else restated(start.state, before, place))
         if start.scene == scene and start.t[-1] < scene.motion.t_end:
             t = float(start.t[-1])
-        _touch(readout.problem, start, t)
+        meet_again(readout.problem, start, t)
     stable = True if start is None else start.log[-1].stable if start.log else None
     path = Path(t=[t], states=[readout.state()], energy=[readout.energy()], stable=stable)
     kept = None if keeper is None else keeper.read()
@@ -213,22 +215,6 @@ def _begin(
         path = resumed_path(path, kept)
         readout.restore(path.states[-1])
     return path
-
-
-def _touch(problem: Problem, start: Result, t: float) -> None:
-    """Take up what the nodes of an earlier result remember of the same surfaces; others they meet anew."""
-    contacts = problem.contacts
-    if contacts is None:
-        return
-    if start.scene.walls == problem.scene.walls:
-        contacts.recall(start.state["touch"][problem.discretization.cell], t)
-    else:
-        contacts.place(t)
-
-
-def _shapes(state: State) -> dict[str, tuple[int, ...]]:
-    """Of all fields but those of contacts."""
-    return {field: values.shape for field, values in state.items() if field not in ("touch", "couples")}
 
 
 def record(
@@ -247,4 +233,5 @@ def record(
         formulation=Formulation("continuum", d.kinematics.name, unknowns(d, path.states[-1]), problem.terms, notes),
         state=path.states[-1],
         contacts=readout.contacts(path.states),
+        meetings=readout.meetings(path.states),
     )

@@ -24,6 +24,7 @@ from slepc4py import SLEPc
 import numpy as np
 
 from dolfinrod.continuum import backend
+from dolfinrod.continuum.coupled import coupled
 from dolfinrod.continuum.inertia import Determinant, NegativePivots
 from dolfinrod.continuum.lift import lifted
 from dolfinrod.continuum.mass import ALIKE, densities
@@ -102,15 +103,16 @@ class Judge:
         problem, A = self._problem, self._problem.discretization.matrix
         problem.hold(np.zeros(0, dtype=np.int32))
         if self._phase.needed:
-            problem.assemble_tangent(A)
-            self._phase.hold_null(A)
+            self._phase.hold_unresisted()
         problem.assemble_tangent(A, on_sphere=True)
         A.setDiagonal(self._neutral(A, doubt), PETSc.InsertMode.ADD)
         if problem.conservative:
-            unstable = self._pivots.count(A) - self._n_dual
+            with coupled(A, problem) as tangent:
+                unstable = self._pivots.count(tangent) - self._n_dual
             return Verdict(unstable == 0, unstable, avoidable=unstable > 0)
-        if self._determinant is None:
-            self._determinant = Determinant(A, problem.discretization.band)
+        if problem.pairs is not None:
+            return Verdict(None)
+        self._determinant = self._determinant or Determinant(A, problem.discretization.band)
         if self._determinant.sign(A) * (-1.0) ** self._n_dual < 0.0:
             return Verdict(False)
         if not closely:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum.neutral import equilibrium
+from dolfinrod.continuum.pairs import PASSED
 from dolfinrod.continuum.pressed import DIRECT
 from dolfinrod.continuum.stability import Verdict
 from dolfinrod.continuum.watch import largest_turn_between_nodes
@@ -203,8 +204,10 @@ class Walk:
         outcome = equilibrium(self.newton, self._phase, last)
         if not outcome.converged:
             return outcome, None, None
-        if problem.contacts is not None and problem.contacts.pierced:
+        if problem.walls is not None and problem.walls.pierced:
             return replace(outcome, converged=False, reason=PIERCED), None, None
+        if problem.pairs is not None and problem.pairs.pierced:
+            return replace(outcome, converged=False, reason=PASSED), None, None
         turn = largest_turn_between_nodes(problem)
         if turn > ALIASED:
             return replace(outcome, converged=False, reason=COARSE.format(turn)), None, None
@@ -219,9 +222,9 @@ class Walk:
     def _extrapolated(self, factor: float) -> State:
         """The last state, and what led to it once more, times a factor."""
         before, last = self.path.states[-2:]
-        turn = self.newton.problem.kinematics.extrapolated
-        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in last if f not in ("q", "touch", "couples")}
-        return beyond | {"q": turn(before["q"], last["q"], factor)}
+        kin = self.newton.problem.kinematics
+        beyond = {f: last[f] + factor * (last[f] - before[f]) for f in kin.fields if f != "q"}
+        return beyond | {"q": kin.extrapolated(before["q"], last["q"], factor)}
 
     def _accept(self, t: float, outcome: Outcome, state: State, verdict: Verdict) -> None:
         path, contacts = self.path, self.newton.problem.contacts

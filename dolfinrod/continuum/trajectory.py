@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from dolfinrod.continuum.contact import Memory
     from dolfinrod.continuum.motion import Motion
     from dolfinrod.continuum.readout import State
     from dolfinrod.result import StepLog
@@ -57,7 +56,7 @@ class Mark:
         steps: Number of steps taken.
         iterations: Spent on them.
         strained: The step behind, where other strains than those of the state have resultants.
-        touched: What the nodes remember of surfaces, where there are any.
+        touched: What is remembered of contacts, where there are any.
     """
 
     t: float
@@ -69,4 +68,4 @@ class Mark:
     steps: int = 0
     iterations: int = 0
     strained: tuple[Array, Array, Array] | None = None
-    touched: Memory | None = None
+    touched: Any = None

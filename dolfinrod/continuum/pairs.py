@@ -1,0 +1,248 @@
+"""Rods on rods: forces and moments on the nodes of all rods, and how these depend on each other.
+
+Every rank has the positions of all nodes and evaluates the contact of its own elements with all others; the forces are
+added up over the ranks. The tangent has blocks of single nodes, as that of surfaces, and links of nodes of two rods.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from mpi4py import MPI
+
+import numpy as np
+
+from dolfinrod.continuum.everywhere import Everywhere, strands
+from dolfinrod.continuum.links import Frames, linked
+from dolfinrod.continuum.met import kept, remembered
+from dolfinrod.scene import Dynamic
+from dolfinrod.scene.meeting import Meeting
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from dolfinrod.continuum.links import Links
+    from dolfinrod.continuum.problem import Block, Problem
+    from dolfinrod.continuum.readout import State
+
+    Array = NDArray[np.float64]
+    Memory = tuple[float, Array, list[dict[str, Array]]]
+
+__all__ = ["PASSED", "Pairs"]
+
+PASSED = "a rod went through another: the step was too long, or eps_N is too small to keep them apart"
+
+
+class Pairs:
+    """All contacts of rods with rods in a scene.
+
+    Args:
+        problem: Owner of the state.
+        level: Where in a step forces act.
+
+    Attributes:
+        links: Tangent at the last call of `blocks`.
+        everywhere: The nodes of all rods.
+        r: Centreline dofs of this rank's own nodes, shape (n, d).
+        q: Their rotation dofs, shape (n, n_q).
+    """
+
+    links: list[Links]
+    _seen: Array | None = None
+
+    def __init__(self, problem: Problem, level: float = 1.0) -> None:
+        d, scene = problem.discretization, problem.scene
+        self._problem, self._level, self.everywhere = problem, level, Everywhere(problem)
+        self.r, self.q = self.everywhere.r, self.everywhere.q
+        lines = strands(problem, self.everywhere.cells)
+        mine = None
+        if d.comm.size > 1:
+            mine = np.zeros(len(self.everywhere.cells), dtype=bool)
+            mine[d.cell[: d.n_owned_cells]] = True
+        inert = isinstance(scene.motion, Dynamic)
+        self._meetings = [Meeting(contact, lines, level, inert=inert, mine=mine) for contact in scene.meetings]
+        self.turns = any(meeting.turns for meeting in self._meetings)
+        self.place(0.0)
+
+    def place(self, t: float) -> None:
+        """The rods are where the state has them; nothing is remembered."""
+        self.t, self._q_0 = t, self._problem.x[self.q]
+        x, self._seen = self._positions(), None
+        for meeting in self._meetings:
+            meeting.place(x, t)
+        self._respond()
+
+    def begin(self, t: float) -> None:
+        """A step from where the rods were last accepted leads to time t."""
+        self.t, self._seen = t, None
+        for meeting in self._meetings:
+            meeting.begin(t)
+
+    def _positions(self) -> Array:
+        """Of all nodes in space, shape (n_nodes, 3) [m]."""
+        problem = self._problem
+        return self.everywhere.gathered(problem.placement.to_space(problem.x[self.r]))
+
+    def _respond(self) -> None:
+        """See to it that the answers are those to the present state."""
+        problem, place = self._problem, self._problem.placement
+        r, q = place.to_space(problem.x[self.r]), problem.x[self.q] if self.turns else np.zeros((len(self.q), 0))
+        now = self.everywhere.gathered(np.concatenate([r, q], axis=1))
+        if self._seen is not None and np.array_equal(self._seen, now):
+            return
+        turn = np.zeros((len(now), 3))
+        if self.turns:
+            turned = problem.kinematics.rotation_vector(self._q_0, problem.x[self.q])
+            turn = self.everywhere.gathered(turned @ place.spin_axes.T)
+        felt = [meeting.respond(now[:, :3], turn) for meeting in self._meetings]
+        force = self.everywhere.summed(np.sum([one.force for one in felt], axis=0))
+        moment = np.sum([one.moment for one in felt], axis=0)
+        self._force = force[self.everywhere.own]
+        self._moment = (self.everywhere.summed(moment) if self.turns else moment)[self.everywhere.own]
+        self._seen = now
+
+    def add_residual(self, b: Array, q: Array) -> None:
+        """Add what the rods do to each other to a residual.
+
+        Args:
+            b: This rank's local residual.
+            q: Rotations of its own nodes in whose spins the moments do work, shape (n, n_q).
+        """
+        self._respond()
+        place, kin = self._problem.placement, self._problem.kinematics
+        b[self.r] -= self._force @ place.axes / place.force
+        if self.turns:
+            spin = kin.spin(self._working(q)[0])
+            b[self.q] -= np.einsum("nij,ni->nj", spin, self._moment @ place.spin_axes / place.moment)
+
+    def _working(self, q: Array) -> tuple[Array, Array]:
+        """Rotations in whose spins moments work in the balance, and their gradient by those after the step.
+
+        Unit quaternions q between the ends of a step belong to shorter ones q̄, in which the balance is written: with
+        the spins of q/|q̄| couples that add up to nothing leave the moment of momentum as it is.
+        """
+        one = np.broadcast_to(np.eye(q.shape[1]), (*q.shape, q.shape[1]))
+        if self._level == 1.0 or q.shape[1] == 1:
+            return q, one
+        between = (1.0 - self._level) * self._q_0 + self._level * self._problem.x[self.q]
+        length = np.linalg.norm(between, axis=1)[:, None]
+        return q / length, self._level * (one - 2.0 * q[:, :, None] * q[:, None]) / length[:, :, None] ** 2
+
+    def blocks(self, q: Array) -> Sequence[Block]:
+        """Rows, columns and entries of single nodes in the tangent by the state after the step; q as above.
+
+        What links different nodes is left in `links`. All ranks call this together.
+        """
+        self._respond()
+        frames = self._frames(q)
+        self.links = [linked(meeting.gradient(), frames) for meeting in self._meetings]
+        nodal = self.everywhere.summed(np.sum([links.nodal for links in self.links], axis=0))[self.everywhere.own]
+        at = self.r
+        if self.turns:
+            at = np.concatenate([self.r, self.q], axis=1)
+            nodal[:, self.r.shape[1] :, self.r.shape[1] :] -= self._turning(q)
+        return [(at, at, nodal)]
+
+    def _turning(self, q: Array) -> Array:
+        """What moments that stay put add to the tangent by rotations, shape (n, n_q, n_q)."""
+        place, kin = self._problem.placement, self._problem.kinematics
+        n, n_q = q.shape
+        if n_q == 1:
+            return np.zeros((n, 1, 1))
+        spins = kin.spin(np.repeat(np.eye(n_q), n, axis=0)).reshape(n_q, n, -1, n_q)
+        moment = self._moment @ place.spin_axes / place.moment
+        return np.einsum("knij,ni->njk", spins, moment) @ self._working(q)[1]
+
+    def _frames(self, q: Array) -> Frames:
+        """Of all nodes, on every rank."""
+        problem, place = self._problem, self._problem.placement
+        at = np.concatenate([self.r, self.q], axis=1) if self.turns else self.r
+        free = self.everywhere.gathered(1.0 - problem.excluded[at]) > 0.0
+        moves, feels = place.length * place.axes, place.axes.T / place.force
+        if not self.turns:
+            return Frames(moves[None], feels[None], free)
+        kin, (d, n_q, n) = problem.kinematics, (self.r.shape[1], self.q.shape[1], at.shape[1])
+        turned = place.spin_axes @ kin.rotation_vector_gradient(self._q_0, problem.x[self.q])
+        spun = np.swapaxes(kin.spin(self._working(q)[0]), 1, 2) @ place.spin_axes.T / place.moment
+        both = np.concatenate([turned.reshape(len(q), -1), spun.reshape(len(q), -1)], axis=1)
+        both = self.everywhere.gathered(both)
+        all_moves, all_feels = np.zeros((len(both), 6, n)), np.zeros((len(both), n, 6))
+        all_moves[:, :3, :d], all_feels[:, :d, :3] = moves, feels
+        all_moves[:, 3:, d:] = both[:, : 3 * n_q].reshape(-1, 3, n_q)
+        all_feels[:, d:, 3:] = both[:, 3 * n_q :].reshape(-1, n_q, 3)
+        return Frames(all_moves, all_feels, free)
+
+    @property
+    def changed(self) -> bool:
+        """Whether anything has come to touch, stick or slide, or ceased to, since the answer before the last one."""
+        return self._on_any_rank(any(meeting.changed for meeting in self._meetings))
+
+    @property
+    def pierced(self) -> bool:
+        """Whether the step has led a rod through another."""
+        return self._on_any_rank(any(meeting.pierces() for meeting in self._meetings))
+
+    def _on_any_rank(self, mine: bool) -> bool:
+        return bool(self._problem.discretization.comm.allreduce(mine, op=MPI.LOR))
+
+    @property
+    def stiffness(self) -> float:
+        """That of the stiffest law, in EI/L⁴."""
+        place = self._problem.placement
+        return float(max(c.law.eps_N for c in self._problem.scene.meetings) * place.length**4 / place.stiffness)
+
+    def soften(self, by: float) -> None:
+        """Let all rods be softer by a factor where they touch, until the next step begins."""
+        self._seen = None
+        for meeting in self._meetings:
+            meeting.soften(by)
+
+    def foresee(self, r: Array) -> bool:
+        """No long step is taken anew: what rods press against moves with them."""
+        return False
+
+    def renew(self) -> bool:
+        """No law of rods has multipliers."""
+        return True
+
+    def accept(self) -> list[float]:
+        """The step counts; energy rubbed off among this rank's elements, and none given by walls, in EI/L."""
+        self._respond()
+        self._q_0 = self._problem.x[self.q]
+        rubbed = sum(meeting.accept()[1] for meeting in self._meetings)
+        return [rubbed / self._problem.placement.moment, 0.0]
+
+    def stored(self) -> float:
+        """Energy that this rank's elements store, in EI/L."""
+        return sum(meeting.stored() for meeting in self._meetings) / self._problem.placement.moment
+
+    def memory(self) -> Memory:
+        """What this rank remembers."""
+        return self.t, self._q_0, [meeting.memory() for meeting in self._meetings]
+
+    def take_back(self, memory: Memory) -> None:
+        """Be what `memory` said earlier, at the state of that time."""
+        self.t, self._q_0, remembered = memory
+        self._recall(remembered)
+
+    def _recall(self, remembered: Sequence[dict[str, Array]]) -> None:
+        self._seen, x = None, self._positions()
+        for meeting, one in zip(self._meetings, remembered, strict=True):
+            meeting.recall(one, x, self.t)
+
+    def kept(self) -> State:
+        """What all ranks remember, and where rods touch, the same on every rank."""
+        self._respond()
+        spots = [meeting.met() for meeting in self._meetings]
+        return kept(self._problem.discretization.comm, self.t, self.memory()[2], spots)
+
+    def recall(self, state: Mapping[str, Array], t: float | None = None) -> None:
+        """Go back, or on, to what a state holds, if it does; at another time, if one is given."""
+        found = remembered(state, len(self._meetings))
+        if found is None:
+            return
+        self.t, self._q_0 = found[0] if t is None else t, self._problem.x[self.q]
+        self._recall(found[1])
+        self._respond()

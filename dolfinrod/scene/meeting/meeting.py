@@ -1,0 +1,215 @@
+"""Rods that meet: what acts on their nodes, and what they remember from step to step.
+
+Both models of this project ask here, each for its own centrelines.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dolfinrod.meetings import Meetings
+from dolfinrod.scene.meeting.acting import Derivatives, couples, forces
+from dolfinrod.scene.meeting.anchors import Anchors, keys, matched
+from dolfinrod.scene.meeting.coupling import Coupling, Felt, gather
+from dolfinrod.scene.meeting.curves import Spans, dot
+from dolfinrod.scene.meeting.neighbours import Neighbours
+from dolfinrod.scene.meeting.passing import passes
+from dolfinrod.scene.meeting.pressed import Pressed, load
+from dolfinrod.scene.meeting.record import record
+from dolfinrod.scene.meeting.slipping import Slip, slide
+from dolfinrod.scene.meeting.spots import both, marks, points
+from dolfinrod.scene.meeting.strands import Strands
+from dolfinrod.scene.reply import SLIDES, STICKS
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from dolfinrod.scene.rodcontact import RodContact
+
+__all__ = ["Meeting"]
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.intp]
+Flags = NDArray[np.bool_]
+
+
+class Meeting:
+    """Rods that may touch one another and themselves.
+
+    Each of two rods has points that look for the other, and each counts for half: so forces do not depend on which of
+    them is named first.
+
+    Args:
+        contact: Which rods, and their laws.
+        strands: Their centrelines.
+        level: Where in a step forces act: 1 at its end, ½ in the middle.
+        inert: Whether the rods have inertia: then what slid one way in an answer halts before it slides back.
+        mine: Cells whose points are looked at here, shape (n_cells,); None: all.
+
+    Attributes:
+        turns: Whether the rods feel each other's turns.
+        changed: Whether other points touched, stuck or slid in the last answer than in the one before.
+        forced: Whether any was kept from sliding back in it, which no equilibrium does.
+        stale: Whether pairs of cells that may touch were looked for anew in it.
+    """
+
+    def __init__(
+        self,
+        contact: RodContact,
+        strands: Strands,
+        level: float = 1.0,
+        *,
+        inert: bool = False,
+        mine: Flags | None = None,
+    ) -> None:
+        self.contact, self._level, self._inert = contact, level, inert
+        self._spans = spans = Spans(strands)
+        touching = np.isin(spans.rod, contact.among(len(strands.radius)))
+        own = np.ones(len(spans.rod), dtype=bool) if mine is None else np.asarray(mine)[spans.cell]
+        self._mine = own & touching
+        self._near = Neighbours(spans, contact.law.g_0, touching, self._mine)
+        friction = contact.friction
+        self.turns = friction is not None
+        self._μ = 0.0 if friction is None else friction.mu
+        anchors = None if friction is None else friction.eps_T
+        self._stiffness = contact.law.eps_N if anchors is None else anchors
+        self.changed = self.forced = self.stale = False
+        self._marks_0: Array | None = None
+        self._stored: float | None = None
+
+    @property
+    def pairs(self) -> Integers:
+        """Pairs of cells that may touch until `stale`, shape (n, 2)."""
+        cells = np.stack([self._spans.cell[self._near.a], self._spans.cell[self._near.b]], axis=1)
+        return np.unique(cells, axis=0)
+
+    def place(self, x: Array, t: float) -> None:
+        """The rods are at x, shape (n_nodes, 3) [m]; nothing is remembered."""
+        self._x_0, self._anchors = x.copy(), Anchors.none()
+        self._course_0, self._stored = self._spans.course(x), None
+        self._renew(x)
+        self._state = np.zeros((2, 0), dtype=np.intp)
+        self.begin(t)
+
+    def _renew(self, *places: Array) -> None:
+        self._near.renew(*places)
+        self._renewed, self._marks_0 = True, None
+
+    def _began(self) -> Array:
+        """Intervals of contact at the start of the step."""
+        if self._marks_0 is None:
+            self._marks_0 = marks(self._course_0, self._near, self.contact.law)
+        return self._marks_0
+
+    def begin(self, t: float) -> None:
+        """A step from where the rods were last accepted leads to time t."""
+        self._law, self._ε_T = self.contact.law, self._stiffness
+        self._slid = np.zeros(0, dtype=np.intp), np.zeros((0, 3))
+
+    def soften(self, by: float) -> None:
+        """Let the law be softer by a factor until the next `begin`: on the way to what is pressed."""
+        self._law, self._ε_T = self.contact.law.softened(by), self._stiffness / by
+
+    def respond(self, x: Array, turn: Array) -> Felt:
+        """What acts where the step has led.
+
+        Args:
+            x: Nodes at its end, shape (n_nodes, 3) [m].
+            turn: Rotation vectors of the sections at the nodes over the step, in space, shape (n_nodes, 3) [rad].
+
+        Returns:
+            Forces and moments on all nodes, of the points looked at here.
+        """
+        self._x, self._n = x.copy(), len(x)
+        self._pressed = pressed = self._led(x)
+        self._key = keys(self._spans, pressed)
+        self._slip = slip = self._slide(pressed, turn) if self.turns else None
+        state = np.full(len(pressed.p), SLIDES) if slip is None else np.where(slip.rubbing.slides, SLIDES, STICKS)
+        self.forced = slip is not None and slip.rubbing.forced
+        found = np.stack([self._key, state])
+        self.changed, self._state = self.forced or not np.array_equal(found, self._state), found
+        facing, force = pressed.facing, forces(pressed, slip)
+        felt = gather(facing.nodes, facing.h[:, :, None] * force[:, None, :], self._n)
+        if slip is None:
+            return Felt(felt, np.zeros((self._n, 3)))
+        turning = -slip.lever[:, :, None] * couples(pressed, slip)[:, None, :]
+        return Felt(felt, gather(facing.nodes, turning, self._n))
+
+    def _led(self, x: Array) -> Pressed:
+        """Points under load."""
+        near, mean = self._near, self._level < 1.0
+        if not (near.holds(x) and (not mean or near.holds(self._x_0))):
+            self._renew(*([self._x_0, x] if mean else [x]))
+        self.stale, self._renewed = self._renewed, False
+        self._course = course = self._spans.course(x)
+        self._marks = found = marks(course, near, self.contact.law)
+        courses = (course, self._course_0) if mean or self.turns else (course,)
+        return load(near, points(both(found, self._began()) if mean else found), self._law, courses, mean=mean)
+
+    def _slide(self, pressed: Pressed, turn: Array) -> Slip:
+        """How it slides; what slid one way in the last answer is kept in mind."""
+        at, known = matched(self._key, self._slid[0])
+        slid = np.zeros((len(at), 3))
+        slid[known] = self._slid[1][at[known]]
+        anchors, friction = self._anchors.of(self._spans, pressed), (self._μ, self._ε_T)
+        slip = slide(pressed, self._x - self._x_0, turn, anchors, slid, friction, self._law.g_0)
+        slides = slip.rubbing.slides & self._inert
+        self._slid = self._key[slides], slip.rubbing.u[slides]
+        return slip
+
+    def gradient(self) -> Coupling:
+        """Derivatives of the last answer, the intervals of contact kept."""
+        pressed, cell = self._pressed, self._spans.cell
+        cells = (cell[-1] + 1) * cell[pressed.a] + cell[pressed.b]
+        order = np.argsort(cells, kind="stable")
+        _, first, pair = np.unique(cells[order], return_index=True, return_inverse=True)
+        derivatives = Derivatives(pressed, self._slip, (self._μ, self._ε_T))
+        products = [derivatives.force_x(), *([] if self._slip is None else derivatives.rubbing())]
+        nodes = pressed.facing.nodes[order[first]]
+        if (np.diff(cells) < 0).any():
+            products = [product.ordered(order) for product in products]
+        return Coupling(nodes, pair, self._n, *products)
+
+    def pierces(self) -> bool:
+        """Whether a rod has gone through another in the step: it was too long."""
+        return passes(self._course_0, self._course, *self._near.swept(self._course_0, self._course))
+
+    def accept(self) -> tuple[float, float]:
+        """The step counts; what is stored at its end, and what friction took in it [J]."""
+        rubbed, slip, pressed = self._anchors.energy(self._stiffness), self._slip, self._pressed
+        self._x_0, self._course_0, self._marks_0 = self._x, self._course, self._marks
+        # Points of a mean load are others than those of the load itself, with which a memory starts again.
+        self._anchors, self._stored = Anchors.none(), self._in(pressed) if self._level == 1.0 else None
+        if slip is not None:
+            self._anchors = Anchors.left(self._spans, pressed, slip.rubbing.anchored)
+            rubbed -= float(pressed.length @ dot(slip.traction, slip.w))
+        return self.stored(), rubbed - self._anchors.energy(self._stiffness)
+
+    def _in(self, pressed: Pressed) -> float:
+        """Energy in penetrations [J]."""
+        return float(pressed.length @ self.contact.law.energy(pressed.gap, np.zeros(len(pressed.gap))))
+
+    def stored(self) -> float:
+        """Energy in penetrations and anchors at the start of the step [J]."""
+        if self._stored is None:
+            self._stored = self._in(load(self._near, points(self._began()), self.contact.law, (self._course_0,)))
+        return self._stored + self._anchors.energy(self._stiffness)
+
+    def memory(self) -> dict[str, Array]:
+        """All that is remembered, one row a point: what `recall` takes."""
+        return self._anchors.memory()
+
+    def recall(self, memory: Mapping[str, Array], x: Array, t: float) -> None:
+        """Go back, or on, to what was remembered at time t with nodes at x; what is not looked at here is left out."""
+        self.place(x, t)
+        self._anchors = Anchors.remembered(self._spans, memory, self._mine)
+
+    def met(self) -> Meetings:
+        """The spots of the last answer."""
+        pressed, none = self._pressed, np.zeros((len(self._pressed.p), 3))
+        where = (1.0 - self._level) * self._x_0 + self._level * self._x
+        traction = none if self._slip is None else self._slip.traction
+        return record(self._spans, pressed, where, traction, self._state[1].astype(np.int8))

@@ -1,0 +1,83 @@
+"""The spots at which rods touch, as a result tells of them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dolfinrod.meetings import Meetings
+from dolfinrod.scene.meeting.coupling import gather, sums
+from dolfinrod.scene.meeting.curves import Spans
+from dolfinrod.scene.meeting.pressed import Pressed
+from dolfinrod.scene.meeting.spots import GAUSS
+
+__all__ = ["record"]
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.intp]
+
+# Places between Gauss points at which the least gap is looked for.
+LOOKS = 33
+
+
+def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDArray[np.int8]) -> Meetings:
+    """Points summed up span by span of the one rod and rod by rod of the other, weighted by their loads.
+
+    Args:
+        spans: The rods.
+        pressed: Points in contact.
+        x: Nodes where the loads act, shape (n_nodes, 3) [m].
+        traction: Friction at the points, shape (n, 3) [N/m].
+        state: 1 sticking or 2 sliding, shape (n,).
+
+    Returns:
+        One row a spot.
+    """
+    a, b, facing = pressed.a, pressed.b, pressed.facing
+    _, spot = np.unique(a * len(spans.radius) + spans.rod[b], return_inverse=True)
+    n, weight = int(spot.max(initial=-1)) + 1, pressed.length * pressed.p
+    load = sums(spot, weight, n)
+
+    def mean(values: Array) -> Array:
+        return sums(spot, weight * values, n) / load
+
+    normal = gather(spot, weight[:, None] * facing.normal, n)
+    rubs = gather(spot, pressed.length[:, None] * traction, n)
+    slides, rods = np.zeros(n, dtype=np.int8), np.zeros((2, n), dtype=np.int64)
+    np.maximum.at(slides, spot, state)
+    rods[:, spot] = spans.rod[a], spans.rod[b]
+    return Meetings(
+        rods[0],
+        mean(spans.along(a, pressed.u)),
+        rods[1],
+        mean(spans.along(b, pressed.v)),
+        gather(spot, weight[:, None] * _between(pressed, x), n) / load[:, None],
+        _least(pressed, spot, n),
+        sums(spot, 2.0 * pressed.length, n),
+        normal + rubs,
+        normal / np.linalg.norm(normal, axis=1)[:, None],
+        rubs,
+        slides,
+    )
+
+
+def _between(pressed: Pressed, x: Array) -> Array:
+    """Half-way between the surfaces, shape (n, 3) [m]."""
+    facing, M = pressed.facing, pressed.facing.h.shape[1] // 2
+    x_B = -np.einsum("nm,nmi->ni", facing.h[:, M:], x[facing.nodes[:, M:]])
+    arm = 0.5 * (facing.distance - pressed.radius_a + pressed.radius_b)
+    return np.asarray(x_B + arm[:, None] * facing.normal)
+
+
+def _least(pressed: Pressed, spot: Integers, n: int) -> Array:
+    """Least gaps of spots, shape (n,) [m]: at points and, where all between two marks are pressed, between them."""
+    gap, m, last = np.full(n, np.inf), len(GAUSS[0]), len(GAUSS[0]) - 1
+    np.minimum.at(gap, spot, pressed.gap)
+    first, index = np.arange(max(len(spot) - last, 0)), pressed.index
+    whole = (index[first] % m == 0) & (index[first + last] == index[first] + last)
+    first = first[whole & (pressed.a[first] == pressed.a[first + last])]
+    powers = np.arange(m)
+    at = np.linspace(GAUSS[0][0], GAUSS[0][-1], LOOKS)[:, None] ** powers
+    through = at @ np.linalg.inv(GAUSS[0][:, None] ** powers)
+    np.minimum.at(gap, spot[first], (pressed.gap[first[:, None] + powers] @ through.T).min(axis=1, initial=np.inf))
+    return gap
