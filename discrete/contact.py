@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Contacts", "contacts_of"]
+__all__ = ["Contacts"]
 
 
 class Contacts:
@@ -44,7 +44,7 @@ class Contacts:
         self._pairs: list[Pair] = []
         self._seen: tuple[Array, Array] | None = None
         self._force: Array
-        for contact in scene.contacts:
+        for contact in scene.walls:
             a, b = (0, len(mesh.s)) if contact.rod is None else (contact.rod, contact.rod + 1)
             mine = slice(int(mesh.first[a]), int(mesh.first[b]))
             inert = isinstance(scene.motion, Dynamic)
@@ -235,8 +235,3 @@ class Contacts:
 
     def _in_space(self, x: Array) -> Array:
         return x * self._units.length + self._mesh.origin
-
-
-def contacts_of(scene: Scene, mesh: Mesh) -> Contacts | None:
-    """The contacts of a scene; None where it has none."""
-    return Contacts(scene, mesh) if scene.contacts else None

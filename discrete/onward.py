@@ -40,7 +40,7 @@ def varies(scene: Scene, t: float) -> bool:
     """Whether any load or prescribed motion changes from a pseudo-time on."""
     weights = _difference(scene, t)
     parts = [part for part in (*scene.supports, *scene.loads) if hasattr(part, "history")]
-    if any(contact.surface.motion is not None for contact in scene.contacts):
+    if any(contact.surface.motion is not None for contact in scene.walls):
         return True
     rates = [sum(w * factor(part.history, t + a, scene.motion.t_end) for a, w in weights) for part in parts]
     return any(abs(rate) > UNCHANGED / scene.motion.t_end for rate in rates)

@@ -78,9 +78,7 @@ class Path(Generic[AnyState]):
 
 def corners(scene: Scene) -> set[float]:
     """Pseudo-times at which the slope of a history may jump."""
-    return {
-        t for part in (*scene.supports, *scene.loads, *scene.contacts) for t in kinks(getattr(part, "history", None))
-    }
+    return {t for part in (*scene.supports, *scene.loads, *scene.walls) for t in kinks(getattr(part, "history", None))}
 
 
 def targets(scene: Scene, t_0: float, steps: int) -> list[float]:
