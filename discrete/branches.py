@@ -80,6 +80,9 @@ class Branches:
 
     def next_critical(self, last: State, t_last: float) -> float:
         """Pseudo-time at which the loads are critical next, seen from an equilibrium; infinite where they never are."""
+        if self._scene.meetings:
+            # How rods answer to one another changes along the path in ways that nothing here knows.
+            return np.inf
         try:
             tangent = self._tangent(last, t_last)
             μ, _ = critical_ahead(self._equilibrium, self._scene, last, t_last, tangent, 1)

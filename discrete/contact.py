@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Contacts", "contacts_of"]
+__all__ = ["Contacts"]
 
 
 class Contacts:
@@ -235,8 +235,3 @@ class Contacts:
 
     def _in_space(self, x: Array) -> Array:
         return x * self._units.length + self._mesh.origin
-
-
-def contacts_of(scene: Scene, mesh: Mesh) -> Contacts | None:
-    """The contacts of a scene; None where it has none."""
-    return Contacts(scene, mesh) if scene.walls else None

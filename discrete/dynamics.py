@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from discrete.contact import contacts_of
 from discrete.damping import Damping
 from discrete.drag import Drag
 from discrete.euler import BackwardEuler
@@ -21,6 +20,7 @@ from discrete.moving import initial
 from discrete.restart import moving_on, stored_motion
 from discrete.statics import INTERRUPTED, StepFailed
 from discrete.supports import Supports
+from discrete.surroundings import surroundings_of
 from discrete.trajectory import Trajectory, formulation
 from dolfinrod.result import NotConverged
 from dolfinrod.scene import Dynamic, ImplicitEuler, SceneError, in_time
@@ -95,7 +95,7 @@ def _method(scene: Scene, cut: Mesh, law: Element, chosen: Mapping[str, str]) ->
     inertia = Inertia(*node_masses(cut, sections, whole_ends=chosen["end_mass"] == "paper"))
     drag = None if scene.air is None else Drag(scene.air, cut, sections)
     added = chosen["rotation"] == "added"
-    contacts = contacts_of(scene, cut)
+    contacts = surroundings_of(scene, cut)
     method = BackwardEuler(cut, Loads(scene, cut), Supports(scene, cut), inertia, drag, contacts, added=added)
     if not any(section.damping for section in sections):
         return method, Elastic(cut, law)

@@ -15,7 +15,7 @@ The limit of the iteration is that of the displacement form; only the way there 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -36,11 +36,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from discrete.constitution import Element
-    from discrete.contact import Contacts
     from discrete.loads import LoadLevel, Loads
     from discrete.mesh import Mesh
     from discrete.nodes import Tangent
     from discrete.supports import Supports
+    from discrete.surroundings import Surroundings
 
     Array = NDArray[np.float64]
 
@@ -67,7 +67,7 @@ class Equilibrium:
     """
 
     def __init__(
-        self, mesh: Mesh, element: Element, loads: Loads, supports: Supports, contacts: Contacts | None = None
+        self, mesh: Mesh, element: Element, loads: Loads, supports: Supports, contacts: Surroundings | None = None
     ) -> None:
         self.mesh, self.element, self.loads, self.supports = mesh, element, loads, supports
         self.contacts = contacts
@@ -89,11 +89,11 @@ class Equilibrium:
         E = self.mesh.elements.triads(state.R)
         e = self.element.chord(state.u, E, state.F_n)
         force, energy = self.element.measure(e, E, state.F_n)
-        halves, touching = evenly(self.loads.level(t).line), None
-        if self.contacts is not None:
-            touching = self.contacts.record()
-            halves += halved(self.contacts.force(state.x, state.R)[:, X], self.mesh)
-        return Snapshot(t, state.x, state.R, force, halves, float(energy.sum()), touching=touching)
+        kept = Snapshot(t, state.x, state.R, force, evenly(self.loads.level(t).line), float(energy.sum()))
+        if self.contacts is None:
+            return kept
+        halves = kept.halves + halved(self.contacts.force(state.x, state.R)[:, X], self.mesh)
+        return replace(kept, halves=halves, touching=self.contacts.record(), met=self.contacts.meetings())
 
     def acting(self, state: State, t: float) -> tuple[Array, ...]:
         """Loads, and what surfaces answer at the pseudo-time t of the last attempt, shapes (n_nodes, 7)."""

@@ -6,6 +6,7 @@ short steps.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,7 @@ from discrete.assembly import SingularTangentError
 from discrete.ends import Ends
 from discrete.factors import Workshop
 from discrete.rotation import tangents
-from discrete.step import Step, StepLostError
+from discrete.step import PiercedError, Step, StepLostError
 from discrete.taken import Balance, Taken
 from discrete.unknowns import SPIN, X
 from discrete.walls import Walls
@@ -24,14 +25,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from discrete.constitution import Element
-    from discrete.contact import Contacts
     from discrete.drag import Drag
-    from discrete.factors import Factors, Increments
     from discrete.loads import LoadLevel, Loads
     from discrete.mesh import Mesh
     from discrete.momentum import Inertia
     from discrete.moving import Moving
+    from discrete.solution import Factors, Increments
     from discrete.supports import Supports
+    from discrete.surroundings import Surroundings
 
     Array = NDArray[np.float64]
 
@@ -44,6 +45,10 @@ FINEST = 1e-12
 # Increments, in L and radians, below which only round-off keeps them from shrinking.
 ROUND_OFF = 1e-11
 MOST_ITERATIONS = 30
+# Forces between rods left out of balance, over those not foreseen, where increments shrink slowly and at best.
+FINE, FINEST_FORCES = 1e-3, 1e-6
+# Iterations after which increments are halved that do not shrink: rods that touch in one and not in the next.
+PATIENT = 4
 # An increment, in L and radians, beyond which positions and turns as unknowns lead anywhere.
 RUNAWAY = 0.5
 
@@ -69,7 +74,7 @@ class BackwardEuler:
         supports: Supports,
         inertia: Inertia,
         drag: Drag | None,
-        contacts: Contacts | None = None,
+        contacts: Surroundings | None = None,
         *,
         added: bool,
     ) -> None:
@@ -78,7 +83,8 @@ class BackwardEuler:
         self._ends = Ends(mesh.elements, len(mesh.x))
         self._walls = None if contacts is None else Walls(contacts)
         self.contacts = contacts
-        self._workshop = Workshop(mesh, supports, inertia.m if drag is None and contacts is None else None)
+        alone = drag is None and (contacts is None or contacts.walls is None)
+        self._workshop = Workshop(mesh, supports, inertia.m if alone else None)
         self._still = np.zeros_like(mesh.x)
 
     @property
@@ -110,6 +116,9 @@ class BackwardEuler:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             try:
                 return self._iterated(self._begun(now, t, staying=False), law, level, 0)
+            except PiercedError:
+                self._workshop.factors = None
+                raise
             except (SingularTangentError, StepLostError):
                 self._workshop.factors = None
             try:
@@ -131,29 +140,33 @@ class BackwardEuler:
     def _iterated(self, step: Step, law: Element, level: LoadLevel, spent: int) -> Taken:
         """Newton's method with factors that may be old, after some iterations of another kind."""
         workshop, walls, before, left = self._workshop, self._walls, np.inf, 0.0
-        iteration = 0
+        iteration, stirred, settled, fine = 0, 0, True, FINE
         while iteration < MOST_ITERATIONS * (1 if walls is None else 1 + walls.renewals):
             iteration += 1
             balance = self._balance(step, law, level)
             if walls is not None and walls.changed:
                 workshop.factors = None
             fresh = workshop.factors is None
-            factors = workshop.factors or self._factors_at(step, law, level, balance)
-            found = workshop.increments(factors, balance.missing, balance.R)
+            make, touched = partial(self._factors_at, step, law, level, balance), None
+            if walls is not None:
+                touched, settled = walls.coupled(), walls.contacts.settled
+                stirred += not settled
+            found = workshop.found(make, balance.missing, balance.R, touched, fine)
             if found.size >= RUNAWAY:
                 raise StepLostError("the iteration diverged")
-            step.move(found.d)
+            step.move(found.d if settled or iteration < PATIENT or found.size < 0.5 * before else 0.5 * found.d)
             goal = min(TOLERANCE * step.motion(), FINEST)
             exact = found.size == 0.0 or (found.size < ROUND_OFF and found.size > 0.25 * before)
             done = exact or (iteration > 1 and workshop.wear.enough(found.size, before, goal))
-            if iteration > 2 and not fresh:
+            if iteration > 2 and not fresh and settled:
                 left = max(left, found.size / before)
             if done and (walls is None or walls.agree(step, exact=exact)):
-                if workshop.wear.see(iteration, left):
+                if workshop.wear.see(iteration - stirred, left):
                     workshop.factors = None
                 return self._taken(step, found, balance, level, spent + iteration)
-            if not fresh and iteration > 1 and workshop.wear.slow(found.size, before, goal):
+            if not fresh and settled and iteration > 1 and workshop.wear.slow(found.size, before, goal):
                 workshop.factors = None
+            fine = max(FINEST_FORCES, min(FINE, 0.1 * found.size / before)) if iteration > 1 else FINE
             before = found.size
         raise StepLostError(f"no convergence in {MOST_ITERATIONS} iterations")
 
@@ -188,8 +201,9 @@ class BackwardEuler:
         x, R = step.configuration()
         missing, _, _, moment = self._outer(step, x, R, level)
         missing -= self._ends.scatter(force.T)
-        factors = self._factors(step, tangent, level, (x, R, moment, missing))
-        return self._workshop.increments(factors, missing, R).d
+        touched = None if self._walls is None else self._walls.coupled()
+        make, self._workshop.factors = partial(self._factors, step, tangent, level, (x, R, moment, missing)), None
+        return self._workshop.found(make, missing, R, touched, FINE).d
 
     def _factors_at(self, step: Step, law: Element, level: LoadLevel, at: Balance) -> Factors:
         """New factors where the iteration has come to."""

@@ -7,97 +7,37 @@ so that they wear by deformation only.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from discrete.assembly import SingularTangentError
+from discrete.coupled import UncoupledError, factorised, unforeseen
 from discrete.loose import loose
 from discrete.nodes import NodalSystem
 from discrete.rows import of_vectors, turn, turn_back
+from discrete.solution import Factors, Increments
 from discrete.unknowns import AXIAL, N_NODE, SPIN, SPIN_J, X_J, X
 from discrete.wear import Wear
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
-    from discrete.assembly import Inverse
-    from discrete.ends import Ends
     from discrete.loads import LoadLevel
     from discrete.mesh import Mesh
-    from discrete.nodes import Tangent
     from discrete.supports import Supports
     from discrete.touched import Touched
 
     Array = NDArray[np.float64]
 
-__all__ = ["Factors", "Increments", "Workshop"]
+__all__ = ["Workshop"]
 
 # Change of the length of the step that is but round-off: with others' m/Δt² not even momentum would be kept.
 OTHER_STEP = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class Factors:
-    """A factorised tangent.
-
-    Args:
-        dt: Length of the step it was made for.
-        R: Section frames where it was made, shape (3, 3, n_nodes).
-        stiffness: Of the elements alone, shape (13, 13, n).
-        drag: Resistance of the air, shape (3, 6, n_nodes); None where there is none.
-        touched: Resistance of surfaces; None where there are none.
-        askew: Nodes whose forces and increments are not turned back.
-        tangent: Everything.
-        inverse: Its factors.
-    """
-
-    dt: float
-    R: Array
-    stiffness: Array
-    drag: Array | None
-    touched: Touched | None
-    askew: NDArray[np.int64]
-    tangent: Tangent
-    inverse: Inverse
-
-
-@dataclass(frozen=True, eq=False)
-class Increments:
-    """A solution with factors, by rows.
-
-    Args:
-        d: Increments, shape (7, n_nodes).
-        own: The same turned back to where the sections were when the factors were made.
-        Q: What they have turned by, shape (3, 3, n_nodes).
-        size: Largest displacement or spin.
-        free: Largest force or moment out of balance where free.
-        factors: By which it was found.
-    """
-
-    d: Array
-    own: Array
-    Q: Array
-    size: float
-    free: float
-    factors: Factors
-
-    def stretched(self, ends: Ends) -> Array:
-        """Change of the end forces, shape (13, n)."""
-        return ends.turned(self.Q, np.einsum("abn,bn->an", self.factors.stiffness, ends.gather(self.own)))
-
-    def pressed(self) -> Array | float:
-        """Change of what surfaces do, shape (n_nodes, 7)."""
-        return 0.0 if self.factors.touched is None else self.factors.touched.change(self.d.T)
-
-    def slowed(self) -> Array | float:
-        """Change of the drag, shape (n_nodes, 3)."""
-        if self.factors.drag is None:
-            return 0.0
-        change = -np.einsum("abn,bn->an", self.factors.drag, self.own[:AXIAL])
-        return turn(self.Q, change[None])[0].T
 
 
 class Workshop:
@@ -150,7 +90,7 @@ class Workshop:
             stiffness: Of the elements, shape (n, 13, 13).
             blocks: Of inertia and air at single nodes, shape (n_nodes, 6, 6).
             drag: The part of the air in it; None where there is none.
-            touched: Resistance of surfaces; None where there are none.
+            touched: Resistance of surfaces and other rods; None where there are none.
             dt: Length of the step.
             missing: What is out of balance, for the answer of guides, shape (7, n_nodes).
             level: Loads.
@@ -166,9 +106,10 @@ class Workshop:
         of_elements = np.ascontiguousarray(stiffness.transpose(1, 2, 0))
         of_air = None if drag is None else np.ascontiguousarray(drag[:, X].transpose(1, 2, 0))
         # Surfaces do not turn with the sections that touch them.
-        askew = self._askew if touched is None else np.union1d(self._askew, touched.nodes)
-        at_nodes = of_air, touched, askew
-        self.factors, self.made = Factors(dt, R, of_elements, *at_nodes, whole, whole.inverse()), self.made + 1
+        askew = self._askew if touched is None else np.union1d(self._askew, touched.askew)
+        at_nodes = of_air, None if touched is None else touched.alone(), askew
+        inverse = whole.system.inverse(whole.elements)
+        self.factors, self.made = Factors(dt, R, of_elements, *at_nodes, whole, inverse), self.made + 1
         self.wear.renew()
         return self.factors
 
@@ -179,12 +120,43 @@ class Workshop:
         tangent[self._ends, at_j, at_j] += blocks[self._last]
         return tangent
 
-    def increments(self, factors: Factors, missing: Array, R: Array) -> Increments:
-        """Increments of all nodes for what is out of balance, shape (7, n_nodes), at section frames R.
+    def _join(self, factors: Factors) -> Factors:
+        """The same with all that rods do to one another where they were made; kept as those at hand."""
+        tangent, touched = factors.tangent, factors.touched
+        assert tangent.touched is not None
+        assert touched is not None
+        links = replace(touched, links=tangent.touched.links)
+        self.factors, self.made = replace(factors, touched=links, inverse=factorised(tangent)), self.made + 1
+        return self.factors
+
+    def found(
+        self, make: Callable[[], Factors], missing: Array, R: Array, touched: Touched | None, fine: float
+    ) -> Increments:
+        """Increments of all nodes by the factors at hand, by new ones, or by those of all rods together.
+
+        Args:
+            make: Makes new factors.
+            missing: What is out of balance, shape (7, n_nodes).
+            R: Section frames, shape (3, 3, n_nodes).
+            touched: What surfaces and other rods answer now; None: as when the factors were made.
+            fine: Part that may be left out of balance of what that changes.
 
         Raises:
-            SingularTangentError: They are not finite.
+            SingularTangentError: There are none.
         """
+        if touched is None:
+            return self._increments(self.factors or make(), missing, R)
+        for better in (lambda: self.factors or make(), make):
+            try:
+                return self._increments(better(), missing, R, touched, fine)
+            except UncoupledError:
+                continue
+        return self._increments(self._join(make()), missing, R, touched, fine)
+
+    def _increments(
+        self, factors: Factors, missing: Array, R: Array, touched: Touched | None = None, fine: float = 0.0
+    ) -> Increments:
+        """Increments of all nodes; UncoupledError where the factors tell too little of how rods push one another."""
         guided = len(self._supports.guides.nodes) > 0
         Q = np.einsum("ijn,kjn->ikn", R, factors.R)
         if len(factors.askew):
@@ -199,17 +171,45 @@ class Workshop:
         free = float(np.abs(right[:, :AXIAL]).max())
         if guided:
             self._turn_guided(factors, right, R.transpose(2, 0, 1))
-        solution = factors.inverse.times(flat[:, None]).reshape(right.shape)
-        own = of_vectors(factors.tangent.in_space(solution) if guided else solution)
+        d, own = self._solution(factors, flat, Q)
         self.solved += 1
-        d = own.copy()
-        d[:AXIAL] = turn(Q, own[:AXIAL].reshape(2, 3, n)).reshape(AXIAL, n)
+        if touched is not None:
+            d, own = self._joined(factors, touched, Q, d, fine)
+            missing = missing + touched.change(d.T).T
         if self._whole is not None:
             self._whole.move(d, missing, factors.dt)
         size = float(np.abs(d[:AXIAL]).max())
         if not isfinite(size):
             raise SingularTangentError
-        return Increments(d, own, Q, size, free, factors)
+        return Increments(d, own, Q, size, free, factors, touched)
+
+    def _joined(self, factors: Factors, touched: Touched, Q: Array, d: Array, fine: float) -> tuple[Array, Array]:
+        """Increments with what rods do to one another beyond what is in the factors, in space and turned back."""
+        known = factors.touched
+
+        def answer(force: Array) -> Array:
+            right = _turned(turn_back, Q, force.T).T
+            flat = factors.tangent.in_axes(right).reshape(-1) if len(factors.tangent.guided) else right.reshape(-1)
+            flat[self._held] = 0.0
+            return self._solution(factors, flat, Q)[0].T
+
+        def change(d: Array) -> Array:
+            beyond = touched.change(d)
+            if known is not None:
+                beyond -= _turned(turn, Q, known.change(_turned(turn_back, Q, d.T).T).T).T
+            return beyond
+
+        force = unforeseen(d.T, answer, change, fine)
+        if force is None:
+            raise UncoupledError
+        d = d + answer(force).T
+        return d, _turned(turn_back, Q, d)
+
+    def _solution(self, factors: Factors, right: Array, Q: Array) -> tuple[Array, Array]:
+        """Increments in space and turned back, shapes (7, n_nodes), for a right-hand side."""
+        solution = factors.inverse.times(right[:, None]).reshape(self._right.shape)
+        own = of_vectors(factors.tangent.in_space(solution) if len(factors.tangent.guided) else solution)
+        return _turned(turn, Q, own), own
 
     def _guide(self, factors: Factors, right: Array, R: Array) -> None:
         """Take the answers λ c of guides off what is out of balance, and turn spins into the axes of the tangent."""
@@ -224,3 +224,10 @@ class Workshop:
         guides = self._supports.guides
         θ_a, c, _ = guides.linearized(R)
         right[guides.nodes, SPIN.start] = -θ_a / np.einsum("mi,mi->m", c, factors.tangent.axes[:, :, 0])
+
+
+def _turned(way: Callable[[Array, Array], Array], Q: Array, rows: Array) -> Array:
+    """Forces or increments of all nodes, shape (7, n_nodes), turned or turned back."""
+    n, turned = rows.shape[1], rows.copy()
+    turned[:AXIAL] = way(Q, rows[:AXIAL].reshape(2, 3, n)).reshape(AXIAL, n)
+    return turned

@@ -13,15 +13,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.scene.piercing import PIERCED
-
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from discrete.contact import Contacts
     from discrete.state import Outcome, State
+    from discrete.surroundings import Surroundings
     from discrete.touched import Touched
 
     Array = NDArray[np.float64]
@@ -62,7 +60,7 @@ class Grip:
 
     touched: Touched
 
-    def __init__(self, contacts: Contacts) -> None:
+    def __init__(self, contacts: Surroundings) -> None:
         self._contacts, self._met, self._last = contacts, dict[bytes, int](), b""
         self.circling, self._foresights = False, 0
 
@@ -94,7 +92,7 @@ class Grip:
         return max(0.0, float(np.abs(force - foretold).max()) - blurred)
 
 
-def gripped(contacts: Contacts, state: State, t: float, find: Find, most: int, fine: float) -> Outcome:
+def gripped(contacts: Surroundings, state: State, t: float, find: Find, most: int, fine: float) -> Outcome:
     """Equilibrium against surfaces.
 
     Args:
@@ -117,14 +115,15 @@ def gripped(contacts: Contacts, state: State, t: float, find: Find, most: int, f
         found = _after(found, find(found.state, most, fine))
     else:
         return replace(found, converged=False, reason=DEEP)
-    if found.converged and contacts.pierced:
-        return replace(found, converged=False, reason=PIERCED)
+    pierced = contacts.pierced if found.converged else ""
+    if pierced:
+        return replace(found, converged=False, reason=pierced)
     if found.converged and found.turned > HALF_TURN and contacts.rubbing:
         return replace(found, converged=False, reason=ROLLED)
     return replace(found, strayed=found.strayed and not contacts.changed)
 
 
-def _pressed(contacts: Contacts, state: State, find: Find, most: int, fine: float) -> Outcome:
+def _pressed(contacts: Surroundings, state: State, find: Find, most: int, fine: float) -> Outcome:
     """Equilibrium with multipliers as they are."""
     stages = max(0, ceil(log(max(contacts.stiffness / SOFTEST, 1.0), STIFFER)))
     found = find(state, DIRECT if stages else most, fine)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from discrete.keptmet import met_of, recalled, resume_met
 from discrete.marching import Mark
 from discrete.moving import Moving
 from discrete.record import Snapshot
@@ -55,7 +56,7 @@ def motion_of(march: March, trajectory: Trajectory, seconds: float) -> Arrays:
         if rates is not None:
             arrays |= {f"{group}/{name}": rate for name, rate in zip(RATES, rates, strict=True)}
     if last is not None:
-        arrays |= _fields("last", last, SNAPSHOT)
+        arrays |= _fields("last", last, SNAPSHOT) | met_of("last", [last.met])
     arrays |= {f"now/{name}": np.array(value) for name, value in trajectory.entry.now.items()}
     for name in trajectory.books[0]:
         arrays[f"ledger/{name}"] = np.array([book[name] for book in trajectory.books])
@@ -85,11 +86,10 @@ def resume_motion(march: March, trajectory: Trajectory, kept: Kept) -> None:
     now = {name: kept.number(f"now/{name}") for name in trajectory.entry.now}
     last = None
     if "last/t" in kept.arrays:
-        last = _snapshot(_taken(kept, "last", first, SNAPSHOT))
+        (met,) = resume_met(kept, "last", 1, len(first.met))
+        last = _snapshot(_taken(kept, "last", first, SNAPSHOT) | {"met": met})
     goals = kept.arrays.get("state/goals", np.zeros(0))
-    there = trajectory.entry.memory.items()
-    memory = {name: kept.take(f"contact/{name}", values.shape) for name, values in there}
-    entry = Entry(n, len(trajectory.log), now, last, memory)
+    entry = Entry(n, len(trajectory.log), now, last, recalled(kept, trajectory.entry.memory))
     march.take_up(Mark(state, kept.number("work/step"), entry, tuple(np.ravel(goals).tolist())))
     trajectory.rewind(entry, state)
 
@@ -130,8 +130,7 @@ def resume_path(path: Path[State], kept: Kept, equilibrium: Equilibrium) -> None
     kept.take("stored/t", (len(path.log) + 1,))
     path.kept[:] = _snapshots(kept, like)
     path.state, path.iterations = state, kept.count("work/iterations")
-    memory = {name: kept.take(f"contact/{name}", values.shape) for name, values in equilibrium.memory().items()}
-    equilibrium.place(state, path.kept[-1].t, memory)
+    equilibrium.place(state, path.kept[-1].t, recalled(kept, equilibrium.memory()))
 
 
 def _work(**numbers: float) -> Arrays:
@@ -163,7 +162,8 @@ def _rates(kept: Kept, like: Moving) -> dict[str, Any]:
 def _stacked(path: Sequence[Snapshot]) -> Arrays:
     """Snapshots as one array a field."""
     parts = [_fields("stored", snapshot, SNAPSHOT) for snapshot in path]
-    return {name: np.stack([part[name] for part in parts]) for name in parts[0]}
+    stacks = {name: np.stack([part[name] for part in parts]) for name in parts[0]}
+    return stacks | met_of("stored", [snapshot.met for snapshot in path])
 
 
 def _snapshots(kept: Kept, like: Snapshot) -> list[Snapshot]:
@@ -171,7 +171,9 @@ def _snapshots(kept: Kept, like: Snapshot) -> list[Snapshot]:
     times = kept.times("stored/t").tolist()
     shapes = {name: np.shape(value) for name, value in _fields("stored", like, SNAPSHOT).items()}
     stacks = {SNAPSHOT[name.removeprefix("stored/")]: kept.take(name, (len(times), *of)) for name, of in shapes.items()}
-    return [_snapshot({field: values[k] for field, values in stacks.items()}) for k in range(len(times))]
+    met = resume_met(kept, "stored", len(times), len(like.met))
+    stacked = [{field: values[k] for field, values in stacks.items()} for k in range(len(times))]
+    return [_snapshot(arrays | {"met": one}) for arrays, one in zip(stacked, met, strict=True)]
 
 
 def _snapshot(arrays: dict[str, Any]) -> Snapshot:

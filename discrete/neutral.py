@@ -21,10 +21,10 @@ from dolfinrod.scene.mechanism import named, null_space
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from discrete.contact import Contacts
     from discrete.equilibrium import Equilibrium
     from discrete.nodes import Tangent
     from discrete.state import Outcome, State
+    from discrete.surroundings import Surroundings
     from discrete.touched import Touched
 
     Array = NDArray[np.float64]
@@ -163,7 +163,7 @@ class PhaseCondition:
 class _Pushed:
     """What pushes the rods of a scene at a pseudo-time."""
 
-    def __init__(self, phase: PhaseCondition, contacts: Contacts, t: float) -> None:
+    def __init__(self, phase: PhaseCondition, contacts: Surroundings, t: float) -> None:
         self._phase, self._contacts, self._t = phase, contacts, t
 
     def ways(self, state: State) -> list[Array]:

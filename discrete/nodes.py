@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.assembly import BandedSystem, Inverse
+from discrete.coupled import factorised, solved
 from discrete.rotation import skew
 from discrete.unknowns import AXIAL, N_NODE, SPIN
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from discrete.coupled import CoupledInverse
     from discrete.loads import LoadLevel
     from discrete.mesh import Mesh
     from discrete.supports import Guides
@@ -43,9 +45,14 @@ class Tangent:
     axes: Array
     touched: Touched | None = None
 
-    def inverse(self) -> Inverse:
+    def inverse(self) -> Inverse | CoupledInverse:
         """Its factors; SingularTangentError where there are none."""
-        return self.system.inverse(self.elements)
+        return factorised(self) if self.coupled else self.system.inverse(self.elements)
+
+    @property
+    def coupled(self) -> bool:
+        """Whether rods that touch one another are in it."""
+        return self.touched is not None and self.touched.links is not None
 
     def times(self, vectors: Array) -> Array:
         """Products with several vectors, shape (n_unknowns, m)."""
@@ -55,6 +62,9 @@ class Tangent:
         product, total = np.matmul(self.elements, own), np.zeros_like(v)
         total[node_i] = product[:, :N_NODE]
         total[node_i + 1, :AXIAL] += product[:, N_NODE:]
+        if self.touched is not None and self.touched.links is not None:
+            for k in range(vectors.shape[1]):
+                total[:, :, k] -= self.in_axes(self.touched.links.beyond(self.in_space(v[:, :, k])))
         return total.reshape(vectors.shape)
 
     def in_space(self, unknowns: Array) -> Array:
@@ -118,7 +128,7 @@ class NodalSystem:
         right[self._band.held] = 0.0
         residual = float(np.abs(np.delete(missing, AXIAL, axis=1)).max())
         right[self._band.held] = held.reshape(-1)[self._band.held]
-        d = self._band.solve(tangent, right).reshape(-1, N_NODE)
+        d = (solved(worked_in, right) if worked_in.coupled else self._band.solve(tangent, right)).reshape(-1, N_NODE)
         return worked_in.in_space(d), residual, worked_in
 
     def tangent(

@@ -10,7 +10,7 @@ import numpy as np
 from discrete.mesh import RIGID_EXTENSION
 from discrete.restart import stored
 from discrete.state import State
-from discrete.touching import contact_histories, contact_terms, energetic
+from discrete.touching import contact_histories, contact_terms, energetic, meeting_histories, unjudged
 from discrete.unknowns import SPIN_I, SPIN_J, X_J
 from dolfinrod.result import Formulation, Result, RodHistory, Statistics
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from discrete.increments import Carried
     from discrete.mesh import Mesh
     from discrete.statics import Path
+    from dolfinrod.meetings import Meetings
     from dolfinrod.scene import Scene, Section
 
     Array = NDArray[np.float64]
@@ -44,6 +45,7 @@ class Snapshot:
         ω: Angular velocities in global axes, shape (n_nodes, 3); None in statics.
         elastic: The end forces without those of damping; None where there is none.
         touching: What the nodes feel of the contacts, as `Contacts.record` gives it; None where there are none.
+        met: Where rods touch one another, one record a meeting of the scene.
     """
 
     t: float
@@ -56,6 +58,7 @@ class Snapshot:
     ω: Array | None = None
     elastic: Array | None = None
     touching: Array | None = None
+    met: tuple[Meetings, ...] = ()
 
 
 def evenly(line: Array) -> Array:
@@ -108,6 +111,7 @@ def recorded(
         formulation=formulation,
         state=stored(path.state, cut) | dict(memory) if isinstance(path.state, State) else {},
         contacts=contact_histories(scene, cut, [kept.touching for kept in path.kept if kept.touching is not None]),
+        meetings=meeting_histories([kept.met for kept in path.kept]),
     )
 
 
@@ -121,7 +125,7 @@ def _formulation(scene: Scene, cut: Mesh, held: Sequence[str], *, with_force: bo
         notes.append(f"rigid extension: EA = {RIGID_EXTENSION:.0e}·EI/L²")
     terms = ("Elasticity", *dict.fromkeys(type(load).__name__ for load in scene.loads), *contact_terms(scene))
     if not energetic(scene):
-        notes.append("stability not judged: friction, and AugmentedLagrangian, have no energy that would tell")
+        notes.append(f"stability not judged: {unjudged(scene)}")
     return Formulation("discrete", "spatial", unknowns, terms, (*notes, *held))
 
 

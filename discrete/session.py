@@ -58,6 +58,8 @@ class Session:
             if at.scene != scene:
                 raise SceneError("at must be a result of this scene, got one of another")
             elements = [len(rod.s) - 1 for rod in at.rods]
+        if scene.meetings:
+            raise SceneError("must not be of rods with rods here: these are not judged together", field="contacts")
         if not energetic(scene):
             needed = "must not rub nor have multipliers here: such contact has a memory, and no tangent tells what is"
             raise SceneError(f"{needed} critical", field="contacts")

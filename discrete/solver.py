@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-from discrete.contact import contacts_of
 from discrete.dynamics import moved
 from discrete.equilibrium import Equilibrium
 from discrete.failure import advice
@@ -24,6 +23,7 @@ from discrete.state import State
 from discrete.statics import INTERRUPTED, Path, StepFailed, stride
 from discrete.stepping import Walk
 from discrete.supports import Supports
+from discrete.surroundings import surroundings_of
 from dolfinrod.checkpoint import Checkpoint
 from dolfinrod.result import NotConverged, Result
 from dolfinrod.scene import Dynamic
@@ -174,7 +174,7 @@ def _set_up(
     scene: Scene, cut: Mesh, axial: str, frame: str, start: Result | None
 ) -> tuple[PhaseCondition, Path[State]]:
     """Solver with equilibrium iterations, and its first state."""
-    parts = Loads(scene, cut), Supports(scene, cut), contacts_of(scene, cut)
+    parts = Loads(scene, cut), Supports(scene, cut), surroundings_of(scene, cut)
     method = Equilibrium(cut, law(cut.elements, axial, frame), *parts)
     return PhaseCondition(method), _begin(method, scene, start)
 

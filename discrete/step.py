@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Step", "StepLostError"]
+__all__ = ["PiercedError", "Step", "StepLostError"]
 
 # Turn of a support in one step beyond which it is not told from the other way round [rad].
 HALF_TURN = 3.0
@@ -30,6 +30,10 @@ SMALL = 0.03
 
 class StepLostError(ArithmeticError):
     """A step that could not be taken."""
+
+
+class PiercedError(StepLostError):
+    """A step so long that a rod went through another: no other first guess of it helps."""
 
 
 class Step:

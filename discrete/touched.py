@@ -1,8 +1,8 @@
-"""What surfaces answer at the nodes that touch them: resistance, and energies of a step."""
+"""What surfaces and other rods answer at the nodes that touch them: resistance, and energies of a step."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,8 @@ from discrete.unknowns import AXIAL, N_NODE, SPIN
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from discrete.links import Links
+
     Array = NDArray[np.float64]
     Indices = NDArray[np.int64]
 
@@ -20,15 +22,19 @@ __all__ = ["Booking", "Touched"]
 
 @dataclass(frozen=True, eq=False)
 class Touched:
-    """Resistance of surfaces at the nodes that touch them.
+    """Resistance of surfaces, and of other rods, at the nodes that touch them.
 
     Args:
         nodes: Each once, shape (m,).
-        blocks: To displacement and spin, shape (m, 6, 6); unsymmetric where there is friction.
+        blocks: To their own displacement and spin, shape (m, 6, 6); unsymmetric where there is friction.
+        links: All that rods do to one another, `blocks` holding its part at single nodes; None where there is nothing.
+        firm: What surfaces do of it; None: all.
     """
 
     nodes: Indices
     blocks: Array
+    links: Links | None = None
+    firm: Touched | None = None
 
     @property
     def stiffest(self) -> float:
@@ -45,9 +51,21 @@ class Touched:
 
     def change(self, d: Array) -> Array:
         """Change of forces and moments with increments of all nodes, shape (n_nodes, 7) both."""
+        if self.links is not None:
+            change = self.links.change(d)
+            return change if self.firm is None else change + self.firm.change(d)
         change = np.zeros_like(d)
         change[self.nodes, :AXIAL] = -np.matmul(self.blocks, d[self.nodes, :AXIAL, None])[:, :, 0]
         return change
+
+    @property
+    def askew(self) -> Indices:
+        """Nodes whose resistance does not turn with their sections: surfaces stay where they are."""
+        return self.nodes if self.firm is None else self.firm.nodes
+
+    def alone(self) -> Touched:
+        """What nodes do to themselves only."""
+        return replace(self, links=None)
 
     def in_axes(self, nodes: Indices, axes: Array) -> Touched:
         """The same with the spins of some nodes in axes of their own, shapes (k,) and (k, 3, 3)."""
@@ -56,7 +74,7 @@ class Touched:
         B = axes[theirs]
         blocks[mine, :, SPIN] = blocks[mine, :, SPIN] @ B
         blocks[mine, SPIN] = np.swapaxes(B, 1, 2) @ blocks[mine, SPIN]
-        return Touched(self.nodes, blocks)
+        return replace(self, blocks=blocks)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.result import ContactHistory, Touching
+from dolfinrod.result import ContactHistory, MeetingHistory, Touching
 from dolfinrod.scene import AugmentedLagrangian
 
 if TYPE_CHECKING:
@@ -15,11 +15,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from discrete.mesh import Mesh
+    from dolfinrod.meetings import Meetings
     from dolfinrod.scene import Scene
 
     Array = NDArray[np.float64]
 
-__all__ = ["contact_histories", "contact_terms", "energetic"]
+__all__ = ["contact_histories", "contact_terms", "energetic", "meeting_histories", "unjudged"]
 
 
 def contact_histories(scene: Scene, mesh: Mesh, path: Sequence[Array]) -> tuple[ContactHistory, ...]:
@@ -60,14 +61,28 @@ def _touching(mesh: Mesh, k: int, felt: Array) -> Touching:
     )
 
 
+def meeting_histories(path: Sequence[tuple[Meetings, ...]]) -> tuple[MeetingHistory, ...]:
+    """One history per contact of rods with rods, of what `Surroundings.meetings` gave at the stored states."""
+    return tuple(MeetingHistory(times) for times in zip(*path, strict=True))
+
+
 def contact_terms(scene: Scene) -> tuple[str, ...]:
     """What contacts add to the terms of a formulation."""
+    kinds = dict.fromkeys(type(contact).__name__ for contact in scene.contacts)
     rubs = any(contact.friction is not None for contact in scene.contacts)
-    return ("Contact",) * bool(scene.contacts) + ("Friction",) * rubs
+    return (*kinds, *("Friction",) * rubs)
 
 
 def energetic(scene: Scene) -> bool:
-    """Whether the tangent tells which equilibria are stable: contacts have an energy, no friction nor multipliers."""
-    return not any(
-        contact.friction is not None or isinstance(contact.law, AugmentedLagrangian) for contact in scene.contacts
-    )
+    """Whether the tangent tells which equilibria are stable."""
+    return not unjudged(scene)
+
+
+def unjudged(scene: Scene) -> str:
+    """Why it does not, in words; empty where contacts have an energy, no friction nor multipliers, with surfaces only.
+
+    Rods that touch one another without friction have an energy, too; but negative directions are counted rod by rod.
+    """
+    if any(contact.friction is not None or isinstance(contact.law, AugmentedLagrangian) for contact in scene.contacts):
+        return "friction, and AugmentedLagrangian, have no energy that would tell"
+    return "rods that touch one another are not judged together" if scene.meetings else ""

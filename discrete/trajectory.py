@@ -9,7 +9,7 @@ import numpy as np
 
 from discrete.mesh import RIGID_EXTENSION
 from discrete.record import Snapshot, evenly, halved, histories
-from discrete.touching import contact_histories, contact_terms
+from discrete.touching import contact_histories, contact_terms, meeting_histories
 from discrete.unknowns import X
 from dolfinrod.result import Formulation, Result, Statistics, StepLog
 
@@ -23,10 +23,12 @@ if TYPE_CHECKING:
     from discrete.ledger import Ledger
     from discrete.mesh import Mesh
     from discrete.moving import Moving
+    from dolfinrod.meetings import Meetings
     from dolfinrod.scene import Scene
 
     Array = NDArray[np.float64]
-    Unstored = tuple[Moving, Taken, Array | None]
+    Felt = tuple[Array | None, tuple[Meetings, ...]]
+    Unstored = tuple[Moving, Taken, Felt]
 
 __all__ = ["Entry", "Trajectory", "formulation"]
 
@@ -83,11 +85,10 @@ class Trajectory:
         self.kept: list[Snapshot] = []
         self.books: list[dict[str, float]] = []
         self.earlier = 0, 0, 0.0
-        halves, touching = evenly(method.loads.level(start.t).line), None
+        halves, felt = evenly(method.loads.level(start.t).line), self._felt()
         if method.contacts is not None:
-            touching = method.contacts.record()
             halves += halved(method.contacts.force(start.x, start.R)[:, X], method.mesh)
-        self._store(self._snapshot(start, force, halves, touching))
+        self._store(self._snapshot(start, force, halves, felt))
 
     @property
     def entry(self) -> Entry:
@@ -115,14 +116,13 @@ class Trajectory:
             How far it has come.
         """
         strain, damped = self._laws.accept(taken, taken.state.t - before.t)
-        contacts, state, booked, touching = self._method.contacts, taken.state, None, None
+        contacts, state, booked = self._method.contacts, taken.state, None
         if contacts is not None:
             booked = contacts.accept(state.x, state.R, state.t)
-            touching = contacts.record()
         self._ledger.add(before, taken, strain, damped, booked)
         energy = strain * self._method.mesh.units.moment
         self.log.append(StepLog(taken.state.t, taken.iterations, cuts, taken.residual, energy))
-        self._unstored = before, taken, touching
+        self._unstored = before, taken, self._felt()
         if stored:
             self.finish()
         return self.entry
@@ -139,13 +139,13 @@ class Trajectory:
         """The last state where it is not stored; None where it is."""
         if not isinstance(self._unstored, tuple):
             return self._unstored
-        before, taken, touching = self._unstored
+        before, taken, felt = self._unstored
         state, dt = taken.state, taken.state.t - before.t
         nodal = taken.drag - self._method.inertia.force(state.v - before.v, dt)
         if taken.pressed is not None:
             nodal += taken.pressed[:, X]
         halves = evenly(taken.level.line) + halved(nodal, self._method.mesh)
-        return self._snapshot(state, taken.force, halves, touching)
+        return self._snapshot(state, taken.force, halves, felt)
 
     def finish(self) -> None:
         """Store the last state unless it is already."""
@@ -183,12 +183,18 @@ class Trajectory:
             contacts=contact_histories(
                 self._scene, mesh, [kept.touching for kept in self.kept if kept.touching is not None]
             ),
+            meetings=meeting_histories([kept.met for kept in self.kept]),
         )
 
-    def _snapshot(self, state: Moving, force: Array, halves: Array, touching: Array | None) -> Snapshot:
+    def _felt(self) -> Felt:
+        """What surfaces and other rods did in the last answer."""
+        contacts = self._method.contacts
+        return (None, ()) if contacts is None else (contacts.record(), contacts.meetings())
+
+    def _snapshot(self, state: Moving, force: Array, halves: Array, felt: Felt) -> Snapshot:
         at, energy = (state.t, state.x, state.R), self._ledger.now["strain"]
         elastic = self._laws.elastic_force(state)
-        return Snapshot(*at, force, halves, energy, state.v, state.ω, elastic, touching)
+        return Snapshot(*at, force, halves, energy, state.v, state.ω, elastic, *felt)
 
     def _store(self, kept: Snapshot) -> None:
         unit = self._method.mesh.units.moment

@@ -1,4 +1,4 @@
-"""Surfaces in the steps of a motion: what they do to the rods, and whether a step may end."""
+"""Surfaces and other rods in the steps of a motion: what they do to a rod, and whether a step may end."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.grip import DEEP, HALF_TURN, MOST_RENEWALS, ROLLED
-from discrete.step import StepLostError
+from discrete.meeting import CROSSED
+from discrete.step import PiercedError, StepLostError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from discrete.contact import Contacts
     from discrete.step import Step
+    from discrete.surroundings import Surroundings
     from discrete.touched import Touched
 
     Array = NDArray[np.float64]
@@ -32,7 +33,7 @@ class Walls:
         renewals: How often multipliers have been renewed in this step.
     """
 
-    def __init__(self, contacts: Contacts) -> None:
+    def __init__(self, contacts: Surroundings) -> None:
         self.contacts, self._made, self.renewals = contacts, b"", 0
 
     def begin(self, t: float) -> None:
@@ -54,6 +55,10 @@ class Walls:
         self._made = self.contacts.pattern
         return self.contacts.blocks()
 
+    def coupled(self) -> Touched | None:
+        """Resistance with what other rods do, where `press` was asked for last; None where there are none."""
+        return None if self.contacts.others is None else self.contacts.answers()
+
     def agree(self, step: Step, *, exact: bool) -> bool:
         """Whether a step may end where its last increment has led.
 
@@ -65,12 +70,14 @@ class Walls:
             Whether the same nodes touch and stick as those it was found for, none too deep.
 
         Raises:
-            StepLostError: A section that rubs turned too far, or renewals do not help.
+            StepLostError: A section that rubs turned too far, renewals do not help, or a rod went through another.
         """
         x, R = step.configuration()
         self.press(x, R.transpose(2, 0, 1))
-        if self.changed and not exact:
+        if not exact and (self.changed or not self.contacts.settled):
             return False
+        if self.contacts.others is not None and self.contacts.others.pierced:
+            raise PiercedError(CROSSED)
         if self.contacts.rubbing and step.dt * float(np.abs(step.ω).max()) > HALF_TURN:
             raise StepLostError(ROLLED)
         if self.contacts.renew():
