@@ -65,6 +65,7 @@ AS_FOUND = {
     "beside": "side by side",
     "contact_maps": "contact map",
     "hard_contacts": "hard contact",
+    "meetings": "meeting",
 }
 
 
@@ -105,6 +106,7 @@ class Report:
         beside: Both models on it, side by side.
         contact_maps: Outcome over step, penalty and length of the elements.
         hard_contacts: What contact stumbles over.
+        meetings: Rods on rods on finer and finer levels.
         contenders: Other people's solvers and our models on one problem.
     """
 
@@ -141,6 +143,7 @@ class Report:
     beside: tuple[SideBySide, ...] = ()
     contact_maps: tuple[ContactCell, ...] = ()
     hard_contacts: tuple[ContactRow, ...] = ()
+    meetings: tuple[ContactStudy, ...] = ()
 
     def compile_ms(self, model: str) -> float | None:
         """What a model spent on making or loading its forms when it was first used [ms]."""
@@ -162,7 +165,7 @@ class Report:
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
         missed += [row for row in moved if not row.holds]
         touched: tuple[Touched, ...] = (*self.touching, *self.grooves, *self.beside, *self.contact_maps)
-        missed += [row for row in (*touched, *self.hard_contacts) if not row.holds]
+        missed += [row for row in (*touched, *self.hard_contacts, *self.meetings) if not row.holds]
         missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
 

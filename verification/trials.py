@@ -6,7 +6,16 @@ from collections.abc import Iterator
 from functools import partial
 from importlib import import_module
 
-from verification import contacttrials, contactwork, eigencases, hardcases, motiontrials, stepping, toptrials
+from verification import (
+    contacttrials,
+    contactwork,
+    eigencases,
+    hardcases,
+    meetingtrials,
+    motiontrials,
+    stepping,
+    toptrials,
+)
 from verification.eigencase import Eigencase
 from verification.hard import hard, pairs
 from verification.hardcase import HardCase, Refined
@@ -35,6 +44,7 @@ def names() -> tuple[str, ...]:
         *toptrials.names(),
         *contacttrials.names(),
         *contactwork.names(),
+        *meetingtrials.names(),
     )
 
 
@@ -75,6 +85,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from toptrials.listing(asked)
     yield from contacttrials.listing(asked)
     yield from contactwork.listing(asked)
+    yield from meetingtrials.listing(asked)
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -103,6 +114,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from toptrials.units(asked, quick=quick)
     yield from contacttrials.units(asked, quick=quick)
     yield from contactwork.units(asked, quick=quick)
+    yield from meetingtrials.units(asked, quick=quick)
 
 
 def _critical(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from verification.references.robustness import PEER_LOADS
-from verification.report import contact, contactmaps, groove, hardcontact, motion, rigid
+from verification.report import contact, contactmaps, groove, hardcontact, meetings, motion, rigid
 from verification.report.critical import brackets, eigenvalues
 from verification.report.hardmotion import hard_motions
 from verification.report.maps import limits, maps
@@ -33,6 +33,7 @@ TITLES = {
     "groove": groove.TITLE,
     "contact-maps": contactmaps.TITLE,
     "hard-contact": hardcontact.TITLE,
+    "meetings": meetings.TITLE,
 }
 WORDS = {
     "eigen": "Critical loads with all deformation before them, and natural frequencies, against characteristic "
@@ -70,6 +71,7 @@ WORDS = {
     "groove": groove.WORDS,
     "contact-maps": contactmaps.WORDS,
     "hard-contact": hardcontact.WORDS,
+    "meetings": meetings.WORDS,
 }
 
 
@@ -91,6 +93,7 @@ def contents(report: Report) -> dict[str, str]:
     parts["groove"] = groove.groove(report.grooves, report.beside) if report.grooves or report.beside else ""
     parts["contact-maps"] = contactmaps.contact_maps(report.contact_maps) if report.contact_maps else ""
     parts["hard-contact"] = hardcontact.hard_contacts(report.hard_contacts) if report.hard_contacts else ""
+    parts["meetings"] = meetings.meeting_cases(report.meetings) if report.meetings else ""
     return {key: text for key, text in parts.items() if text}
 
 
@@ -119,4 +122,5 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
             report.hard_contacts,
             "hard contacts: the end sought in few iterations, or a refusal in words",
         ),
+        ("meetings", report.meetings, "ways to take rods on rods: answers within their limits, orders as stated"),
     )
