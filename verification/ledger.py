@@ -83,7 +83,7 @@ class Unit:
         topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
             "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
             "frequency", "drift", "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map",
-            "hard contact" or "twist".
+            "hard contact", "meeting" or "twist".
         words: What is solved, for people.
         parameters: What sets it apart from others of its topic; strings and numbers.
         work: Solves it; returns a row, or rows, for the report.

@@ -67,6 +67,7 @@ AS_FOUND = {
     "contact_maps": "contact map",
     "hard_contacts": "hard contact",
     "twists": "twist",
+    "meetings": "meeting",
 }
 
 
@@ -108,6 +109,7 @@ class Report:
         contact_maps: Outcome over step, penalty and length of the elements.
         hard_contacts: What contact stumbles over.
         twists: How twist is measured.
+        meetings: Rods on rods on finer and finer levels.
         contenders: Other people's solvers and our models on one problem.
     """
 
@@ -145,6 +147,7 @@ class Report:
     contact_maps: tuple[ContactCell, ...] = ()
     hard_contacts: tuple[ContactRow, ...] = ()
     twists: tuple[TwistStudy, ...] = ()
+    meetings: tuple[ContactStudy, ...] = ()
 
     def compile_ms(self, model: str) -> float | None:
         """What a model spent on making or loading its forms when it was first used [ms]."""
@@ -166,7 +169,7 @@ class Report:
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
         missed += [row for row in moved if not row.holds]
         touched: tuple[Touched, ...] = (*self.touching, *self.grooves, *self.beside, *self.contact_maps)
-        missed += [row for row in (*touched, *self.hard_contacts, *self.twists) if not row.holds]
+        missed += [row for row in (*touched, *self.hard_contacts, *self.meetings, *self.twists) if not row.holds]
         missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
 

@@ -11,6 +11,7 @@ from verification import (
     contactwork,
     eigencases,
     hardcases,
+    meetingtrials,
     motiontrials,
     stepping,
     toptrials,
@@ -45,6 +46,7 @@ def names() -> tuple[str, ...]:
         *contacttrials.names(),
         *contactwork.names(),
         *twisttrials.names(),
+        *meetingtrials.names(),
     )
 
 
@@ -86,6 +88,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from contacttrials.listing(asked)
     yield from contactwork.listing(asked)
     yield from twisttrials.listing(asked)
+    yield from meetingtrials.listing(asked)
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -115,6 +118,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from contacttrials.units(asked, quick=quick)
     yield from contactwork.units(asked, quick=quick)
     yield from twisttrials.units(asked)
+    yield from meetingtrials.units(asked, quick=quick)
 
 
 def _critical(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from verification.references.robustness import PEER_LOADS
-from verification.report import contact, contactmaps, groove, hardcontact, motion, rigid, twist
+from verification.report import contact, contactmaps, groove, hardcontact, meetings, motion, rigid, twist
 from verification.report.critical import brackets, eigenvalues
 from verification.report.hardmotion import hard_motions
 from verification.report.maps import limits, maps
@@ -34,6 +34,7 @@ TITLES = {
     "contact-maps": contactmaps.TITLE,
     "hard-contact": hardcontact.TITLE,
     "winding": twist.TITLE,
+    "meetings": meetings.TITLE,
 }
 WORDS = {
     "eigen": "Critical loads with all deformation before them, and natural frequencies, against characteristic "
@@ -72,6 +73,7 @@ WORDS = {
     "contact-maps": contactmaps.WORDS,
     "hard-contact": hardcontact.WORDS,
     "winding": twist.WORDS,
+    "meetings": meetings.WORDS,
 }
 
 
@@ -94,6 +96,7 @@ def contents(report: Report) -> dict[str, str]:
     parts["contact-maps"] = contactmaps.contact_maps(report.contact_maps) if report.contact_maps else ""
     parts["hard-contact"] = hardcontact.hard_contacts(report.hard_contacts) if report.hard_contacts else ""
     parts["winding"] = twist.twists(report.twists) if report.twists else ""
+    parts["meetings"] = meetings.meeting_cases(report.meetings) if report.meetings else ""
     return {key: text for key, text in parts.items() if text}
 
 
@@ -127,4 +130,5 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
             report.twists,
             "measures of twist: exact, or with the order of theory and right to the digits trusted",
         ),
+        ("meetings", report.meetings, "ways to take rods on rods: answers within their limits, orders as stated"),
     )
