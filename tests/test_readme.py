@@ -117,26 +117,30 @@ def test_contact_in_a_scene_file_is_that_of_the_example():
     )
 
 
-def ran(title: str, number: int = 0) -> str:
-    """What the example of a section prints."""
+def ran(title: str, number: int = 0) -> tuple[str, dict[str, object]]:
+    """What an example of a section prints, and its names."""
     section = README.split(f"## {title}\n")[1].split("\n## ")[0]
     example = re.findall(r"```python\n(.*?)```", section, re.DOTALL)[number]
+    names: dict[str, object] = {"dr": dr}
     with contextlib.redirect_stdout(io.StringIO()) as printed:
-        exec(compile(example, "README.md", "exec"), {"dr": dr})
-    return printed.getvalue()
+        exec(compile(example, "README.md", "exec"), names)
+    return printed.getvalue(), names
 
 
 def test_crossed_fibres_press_as_is_shown():
-    (force,) = ran("Rods that touch rods").splitlines()
-    assert float(force) == pytest.approx(-2.306e-6, rel=2e-3)
+    printed, names = ran("Rods that touch rods")
+    assert float(printed) == pytest.approx(-2.306e-6, rel=2e-3)
+    for name in ("rod_a", "s_a", "rod_b", "s_b", "point", "gap", "length", "force", "normal", "traction", "state"):
+        assert hasattr(names["met"], name)
 
 
-def test_core_of_the_example_is_held():
-    assert ran("Rods that touch rods", 1) == ""
+def test_core_of_the_example_moves_across_and_rolls():
+    _, names = ran("Rods that touch rods", 1)
+    assert set.intersection(*(set(support.free) for support in names["scene"].supports)) == {"y", "z", "rx"}
 
 
 def test_twist_example_prints_what_its_comments_say():
     """Three strands laid with 55 turns a metre, 2.2 in 40 mm."""
-    of_the_bundle, of_two = ran("How much it twists").splitlines()
+    of_the_bundle, of_two = ran("How much it twists")[0].splitlines()
     assert np.array(of_the_bundle.split(), dtype=float) == pytest.approx([55.0, 55.0], abs=2e-3)
     assert float(of_two) == pytest.approx(2.2, abs=1e-3)
