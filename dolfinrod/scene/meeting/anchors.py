@@ -86,8 +86,8 @@ class Anchors:
     def of(self, spans: Spans, pressed: Pressed) -> Array:
         """What points inherit, shape (n, 3) [m].
 
-        From the same place of the same spot, or from the nearest of the same pair of rods if it is no further than a
-        span: so a spot hands over to the next span what it leaves there. Where the points stand for more length than
+        From the same place of the same spot, or of that nearest of the same pair of rods if it is no further than a
+        span: so a spot hands over to the next span what it leaves there. Where a point stands for more length than
         before, the rest is fresh: no energy comes from nowhere.
 
         Args:
@@ -100,9 +100,12 @@ class Anchors:
         u = np.zeros((len(pressed.a), 3))
         if not len(self.key):
             return u
-        at, found = matched(keys(spans, pressed), self.key.astype(np.intp))
+        known = self.key.astype(np.intp)
+        at, found = matched(keys(spans, pressed), known)
         lost = np.flatnonzero(~found)
-        at[lost], found[lost] = self._nearest(spans, pressed, lost)
+        near, found[lost] = self._nearest(spans, pressed, lost)
+        alike, there = matched(known[near] // MOST_POINTS * MOST_POINTS + pressed.index[lost], known)
+        at[lost] = np.where(there, alike, near)
         at, kept = at[found], np.flatnonzero(found)
         u[kept] = self.u[at] * np.minimum(1.0, self.length[at] / pressed.length[kept])[:, None]
         return u

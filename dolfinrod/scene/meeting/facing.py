@@ -37,10 +37,6 @@ class Opposite:
     slope: Array
     bend: Array
 
-    def only(self, on: Integers) -> Opposite:
-        """Some of the points."""
-        return Opposite(self.b[on], self.v[on], self.d[on], self.square[on], self.slope[on], self.bend[on])
-
 
 def oppose(course: Course, a: Integers, u: Array, b: Integers, v: Array) -> Opposite:
     """What lies opposite points of spans a at u, looked for from spans b at v on."""

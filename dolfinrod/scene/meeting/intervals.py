@@ -5,13 +5,14 @@ Fibres that cross touch over some 10 µm of a span that is fifty times as long; 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.meeting.curves import Course
-from dolfinrod.scene.meeting.facing import Opposite, oppose
+from dolfinrod.scene.meeting.facing import oppose
 from dolfinrod.scene.meeting.neighbours import Neighbours
 from dolfinrod.scene.meeting.projection import between_chords, to_chord
 
@@ -23,6 +24,8 @@ Flags = NDArray[np.bool_]
 
 # Corrections of an interval on the true curves, and when one is small against its distance from the deepest point.
 CORRECTIONS, SETTLED = 12, 1e-6
+# Places of a span at which its distance from a rod, a bent curve itself where both run side by side, is looked at.
+SAMPLES = (0.0, 0.5, 1.0)
 
 
 def intervals(course: Course, near: Neighbours, reach: float) -> tuple[Array, Array]:
@@ -42,18 +45,21 @@ def intervals(course: Course, near: Neighbours, reach: float) -> tuple[Array, Ar
         return ends[0], ends[1]
     a = near.on[runs]
     ρ_2 = (course.spans.radius[a] + course.spans.radius[b] + reach) ** 2
-    outer = []
-    for end in (0.0, 1.0):
-        at = np.full(len(runs), end)
-        outer.append(oppose(course, a, at, *begin_at(course, near, runs, course.place(a, at))))
-    # Far ends of a span may face another part of the rod, or themselves.
-    held = [(near.first[runs] <= side.b) & (side.b <= near.last[runs]) for side in outer]
-    inside = [(side.square < ρ_2) & within for side, within in zip(outer, held, strict=True)]
-    deep, found = _deepest(course, outer, inside, ρ_2, _Deep(a, u, b, v, *np.zeros((3, len(a)))))
-    for k, end in enumerate((0.0, 1.0)):
-        at = np.where(inside[k], end, deep.u)
-        look = np.flatnonzero(found & ~inside[k])
-        at[look] = _edge(course, deep, look, end, ρ_2)
+    places = [_sampled(course, near, runs, at, ρ_2) for at in SAMPLES]
+    for k in range(len(SAMPLES) - 1, 0, -1):
+        f, slope, bend = np.zeros((3, len(a)))
+        chord = _Seen(a, u.copy(), b.copy(), v.copy(), f, slope, bend, np.zeros(len(a), dtype=bool))
+        places.insert(k, _deepest(course, places[k - 1], places[k], ρ_2, chord))
+    inside = np.array([place.inside for place in places])
+    found = inside.any(axis=0)
+    last = len(places) - 1
+    for k, deepest in enumerate((inside.argmax(axis=0), last - inside[::-1].argmax(axis=0))):
+        # Samples are at even places, what lies between them at odd ones: the next sample beyond is out of reach.
+        beyond = np.clip((deepest - 1) // 2 * 2 if k == 0 else deepest // 2 * 2 + 2, 0, last)
+        seen = _chosen(places, deepest)
+        look = np.flatnonzero(found & (deepest != k * last))
+        at = seen.u.copy()
+        at[look] = _edge(course, seen.only(look), _chosen(places, beyond).u[look], ρ_2[look])
         ends[k, runs] = np.where(found, at, 0.0)
     return ends[0], ends[1]
 
@@ -95,8 +101,8 @@ def begin_at(course: Course, near: Neighbours, runs: Integers, x: Array) -> tupl
 
 
 @dataclass(frozen=True, eq=False)
-class _Deep:
-    """A point of each span, what lies opposite it, and its distance² − ρ² with two derivatives by u."""
+class _Seen:
+    """A point of each span, what lies opposite it, distance² − ρ² and two derivatives by u, and whether that is < 0."""
 
     a: Integers
     u: Array
@@ -105,84 +111,100 @@ class _Deep:
     f: Array
     slope: Array
     bend: Array
+    inside: Flags
 
-    def face(self, course: Course, live: Integers, ρ_2: Array) -> None:
+    def look(self, course: Course, live: Integers, ρ_2: Array) -> None:
         """Look at some of the points anew."""
-        self.take(live, oppose(course, self.a[live], self.u[live], self.b[live], self.v[live]), ρ_2[live])
+        seen = oppose(course, self.a[live], self.u[live], self.b[live], self.v[live])
+        self.b[live], self.v[live], self.f[live] = seen.b, seen.v, seen.square - ρ_2[live]
+        self.slope[live], self.bend[live], self.inside[live] = seen.slope, seen.bend, self.f[live] < 0.0
 
-    def take(self, of: Integers, seen: Opposite, ρ_2: Array) -> None:
-        """What was seen of some of the points."""
-        self.b[of], self.v[of], self.f[of] = seen.b, seen.v, seen.square - ρ_2
-        self.slope[of], self.bend[of] = seen.slope, seen.bend
+    def only(self, on: Integers) -> _Seen:
+        """Some of the points."""
+        derivatives = self.f[on], self.slope[on], self.bend[on]
+        return _Seen(self.a[on], self.u[on], self.b[on], self.v[on], *derivatives, self.inside[on])
 
 
-def _deepest(
-    course: Course, outer: list[Opposite], inside: list[Flags], ρ_2: Array, deep: _Deep
-) -> tuple[_Deep, Flags]:
-    """A point of each span within reach: an end, or one on the way to where the distance is least.
+def _sampled(course: Course, near: Neighbours, runs: Integers, at: float, ρ_2: Array) -> _Seen:
+    """The same place of all spans."""
+    a, u = near.on[runs], np.full(len(runs), at)
+    seen = oppose(course, a, u, *begin_at(course, near, runs, course.place(a, u)))
+    # Far ends of a span may face another part of the rod, or themselves.
+    within = (near.first[runs] <= seen.b) & (seen.b <= near.last[runs])
+    return _Seen(a, u, seen.b, seen.v, seen.square - ρ_2, seen.slope, seen.bend, within & (seen.square < ρ_2))
+
+
+def _chosen(places: list[_Seen], which: Integers) -> _Seen:
+    """One of several places for each span."""
+    every = np.arange(len(which))
+
+    def pick(name: str) -> NDArray[Any]:
+        return np.asarray(np.array([getattr(place, name) for place in places])[which, every])
+
+    return _Seen(*(pick(field.name) for field in fields(_Seen)))
+
+
+def _deepest(course: Course, left: _Seen, right: _Seen, ρ_2: Array, chord: _Seen) -> _Seen:
+    """Where between two samples beyond reach the distance is least, or a point within reach on the way there.
 
     Args:
         course: The rods.
-        outer: What lies opposite the ends of the spans.
-        inside: Whether it is within reach.
+        left: The one sample.
+        right: The other.
         ρ_2: Square of the reach, shape (n,) [m²].
-        deep: Where to begin.
+        chord: Closest points of the chords, where to look if the slopes of the samples do not tell.
 
     Returns:
-        The points, and whether they are within reach.
+        The points.
     """
-    found, low, high = inside[0] | inside[1], np.zeros(len(ρ_2)), np.ones(len(ρ_2))
-    for end, seen, within in ((0.0, outer[0], inside[0]), (1.0, outer[1], inside[1] & ~inside[0])):
-        of = np.flatnonzero(within)
-        deep.u[of] = end
-        deep.take(of, seen.only(of), ρ_2[of])
-    # A distance that grows from an end on, or falls to it, is least there.
-    between, live = (outer[0].slope < 0.0) & (outer[1].slope > 0.0), np.flatnonzero(~found)
+    low, high, outside = left.u.copy(), right.u.copy(), ~left.inside & ~right.inside
+    between = outside & (left.slope < 0.0) & (right.slope > 0.0)
+    live = np.flatnonzero(between | (outside & (chord.u > low) & (chord.u < high)))
+    turns = np.where(between, -left.slope / np.where(between, right.slope - left.slope, 1.0), 0.0)
+    chord.u[between] = (low + turns * (high - low))[between]
     for _ in range(CORRECTIONS):
         if not len(live):
             break
-        deep.face(course, live, ρ_2)
-        u, slope, bend = deep.u[live], deep.slope[live], deep.bend[live]
-        found[live] = deep.f[live] < 0.0
+        chord.look(course, live, ρ_2)
+        u, slope, bend = chord.u[live], chord.slope[live], chord.bend[live]
         low[live], high[live] = np.where(slope < 0.0, u, low[live]), np.where(slope < 0.0, high[live], u)
         to = np.where(bend > 0.0, u - slope / np.where(bend > 0.0, bend, 1.0), np.nan)
         to = np.where((to > low[live]) & (to < high[live]), to, 0.5 * (low[live] + high[live]))
-        on = ~found[live] & between[live] & (np.abs(to - u) > SETTLED)
+        on = ~chord.inside[live] & between[live] & (np.abs(to - u) > SETTLED)
         live = live[on]
-        deep.u[live] = to[on]
-    return deep, found
+        chord.u[live] = to[on]
+    return chord
 
 
-def _edge(course: Course, deep: _Deep, look: Integers, end: float, ρ_2: Array) -> Array:
-    """Where, between a point within reach and an end beyond, reach ends.
+def _edge(course: Course, seen: _Seen, beyond: Array, ρ_2: Array) -> Array:
+    """Where, between points within reach and others beyond, reach ends.
 
     Args:
         course: The rods.
-        deep: Points within reach.
-        look: Numbers of those that are looked at, shape (n,).
-        end: 0 or 1.
-        ρ_2: Square of the reach of all [m²].
+        seen: Points within reach.
+        beyond: Places beyond, shape (n,).
+        ρ_2: Square of the reach [m²].
 
     Returns:
         Places on the spans, shape (n,).
     """
-    ρ_2, inner, outer, deepest = ρ_2[look], deep.u[look], np.full(len(look), end), deep.u[look]
-    at = _Deep(deep.a[look], deep.u[look], deep.b[look], deep.v[look], *np.zeros((3, len(look))))
-    f, slope, bend = deep.f[look], deep.slope[look], deep.bend[look]
-    root = np.sqrt(np.maximum(slope**2 - 2.0 * bend * f, 0.0))
-    way = (-slope + np.copysign(root, outer - inner)) / np.where(bend > 0.0, bend, 1.0)
-    at.u[:] = np.clip(np.where(bend > 0.0, inner + way, outer), np.minimum(inner, outer), np.maximum(inner, outer))
-    live = np.arange(len(look))
+    inner, outer, deepest = seen.u.copy(), beyond.copy(), seen.u.copy()
+    bend = seen.bend
+    root = np.sqrt(np.maximum(seen.slope**2 - 2.0 * bend * seen.f, 0.0))
+    way = (-seen.slope + np.copysign(root, outer - inner)) / np.where(bend > 0.0, bend, 1.0)
+    least, most = np.minimum(inner, outer), np.maximum(inner, outer)
+    seen.u[:] = np.clip(np.where(bend > 0.0, inner + way, outer), least, most)
+    live = np.arange(len(inner))
     for _ in range(CORRECTIONS):
         if not len(live):
             break
-        at.face(course, live, ρ_2)
-        u, f, slope = at.u[live], at.f[live], at.slope[live]
-        inner[live], outer[live] = np.where(f < 0.0, u, inner[live]), np.where(f < 0.0, outer[live], u)
-        steep = slope * np.sign(end - deepest[live]) > 0.0
+        seen.look(course, live, ρ_2)
+        u, f, slope, within = seen.u[live], seen.f[live], seen.slope[live], seen.inside[live]
+        inner[live], outer[live] = np.where(within, u, inner[live]), np.where(within, outer[live], u)
+        steep = slope * np.sign(beyond - deepest)[live] > 0.0
         to = np.where(steep, u - f / np.where(steep, slope, 1.0), np.nan)
         kept = (to - inner[live]) * (to - outer[live]) <= 0.0
         to = np.where(kept, to, 0.5 * (inner[live] + outer[live]))
-        at.u[live] = to
+        seen.u[live] = to
         live = live[np.abs(to - u) > SETTLED * np.abs(to - deepest[live])]
-    return at.u
+    return seen.u

@@ -5,6 +5,7 @@ Both models of this project ask here, each for its own centrelines.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +19,7 @@ from dolfinrod.scene.meeting.curves import Spans, dot
 from dolfinrod.scene.meeting.neighbours import Neighbours
 from dolfinrod.scene.meeting.passing import passes
 from dolfinrod.scene.meeting.pressed import Pressed, load
-from dolfinrod.scene.meeting.record import record
+from dolfinrod.scene.meeting.record import least, record
 from dolfinrod.scene.meeting.slipping import Slip, slide
 from dolfinrod.scene.meeting.spots import both, marks, points
 from dolfinrod.scene.meeting.strands import Strands
@@ -174,7 +175,11 @@ class Meeting:
         return Coupling(nodes, pair, self._n, *products)
 
     def pierces(self) -> bool:
-        """Whether a rod has gone through another in the step: it was too long."""
+        """Whether a rod has gone through another in the step, or half-way into it: it was too long."""
+        pressed = self._pressed
+        depth = replace(pressed, gap=pressed.gap / (pressed.radius_a + pressed.radius_b))
+        if least(depth, np.zeros(len(pressed.p), dtype=np.intp), 1)[0] < -0.5:
+            return True
         return passes(self._course_0, self._course, *self._near.swept(self._course_0, self._course))
 
     def accept(self) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from dolfinrod.scene.meeting.curves import Spans
 from dolfinrod.scene.meeting.pressed import Pressed
 from dolfinrod.scene.meeting.spots import GAUSS
 
-__all__ = ["record"]
+__all__ = ["least", "record"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
@@ -52,7 +52,7 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
         rods[1],
         mean(spans.along(b, pressed.v)),
         gather(spot, weight[:, None] * _between(pressed, x), n) / load[:, None],
-        _least(pressed, spot, n),
+        least(pressed, spot, n),
         sums(spot, 2.0 * pressed.length, n),
         normal + rubs,
         normal / np.linalg.norm(normal, axis=1)[:, None],
@@ -69,8 +69,17 @@ def _between(pressed: Pressed, x: Array) -> Array:
     return np.asarray(x_B + arm[:, None] * facing.normal)
 
 
-def _least(pressed: Pressed, spot: Integers, n: int) -> Array:
-    """Least gaps of spots, shape (n,) [m]: at points and, where all between two marks are pressed, between them."""
+def least(pressed: Pressed, spot: Integers, n: int) -> Array:
+    """Least gaps: at points and, where all between two marks are pressed, between them.
+
+    Args:
+        pressed: The points.
+        spot: To which of n spots each belongs.
+        n: How many there are.
+
+    Returns:
+        One for each spot, infinite for one without points [m].
+    """
     gap, m, last = np.full(n, np.inf), len(GAUSS[0]), len(GAUSS[0]) - 1
     np.minimum.at(gap, spot, pressed.gap)
     first, index = np.arange(max(len(spot) - last, 0)), pressed.index
