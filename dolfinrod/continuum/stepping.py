@@ -200,6 +200,8 @@ class Walk:
             last = problem.x.copy()
             self._readout.restore(self._extrapolated(step / (path.t[-1] - path.t[-2])))
         problem.advance_to(t)
+        if problem.contacts is not None and path.log and not self._stride.cuts and path.t[-1] not in self._corners:
+            problem.contacts.glide()
         outcome = equilibrium(self.newton, self._phase, last)
         if not outcome.converged:
             return outcome, None, None
