@@ -14,7 +14,7 @@ from discrete.pair import Pair
 from discrete.rotation import log, tangents
 from discrete.touched import Booking, Touched
 from discrete.unknowns import N_NODE, SPIN, X
-from dolfinrod.scene import Dynamic, Touch
+from dolfinrod.scene import AugmentedLagrangian, Touch
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -35,6 +35,9 @@ class Contacts:
     Args:
         scene: The problem.
         mesh: Its nodes.
+
+    Attributes:
+        renews: Whether any law has multipliers.
     """
 
     def __init__(self, scene: Scene, mesh: Mesh) -> None:
@@ -47,9 +50,9 @@ class Contacts:
         for contact in scene.walls:
             a, b = (0, len(mesh.s)) if contact.rod is None else (contact.rod, contact.rod + 1)
             mine = slice(int(mesh.first[a]), int(mesh.first[b]))
-            inert = isinstance(scene.motion, Dynamic)
-            touch = Touch(contact, radius[mine], scene.motion.t_end, inert=inert)
+            touch = Touch(contact, radius[mine], scene.motion.t_end)
             self._pairs.append(Pair(contact, mine, share[mine], touch))
+        self.renews = any(isinstance(contact.law, AugmentedLagrangian) for contact in scene.walls)
         self._rubs = any(pair.rubs for pair in self._pairs)
 
     def recall(self, arrays: Mapping[str, Array], x: Array, R: Array, t: float) -> None:
@@ -107,6 +110,11 @@ class Contacts:
         """Begin the iteration with what touched and stuck in the last state that counts."""
         for pair in self._pairs:
             pair.touch.cling()
+
+    def glide(self) -> None:
+        """Begin it with what slid in the last state that counts sliding on."""
+        for pair in self._pairs:
+            pair.touch.glide()
 
     def foresee(self, x: Array) -> bool:
         """Whether a linear step to x changes what is pressed; the next answer is with that."""

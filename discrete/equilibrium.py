@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.assembly import SingularTangentError, gather, scatter
-from discrete.grip import Grip, gripped
+from discrete.grip import ROUGH, Grip, gripped
 from discrete.nodes import NodalSystem
 from discrete.record import Snapshot, evenly, halved
 from discrete.rotation import exp
@@ -129,10 +129,10 @@ class Equilibrium:
             return self._found(t, trust, None, state, MOST_ITERATIONS, TOLERANCE)
         contacts = self.contacts
 
-        def find(state: State, most: int, fine: float) -> Outcome:
-            return self._found(t, trust, Grip(contacts), state, most, fine)
+        def find(state: State, most: int, fine: float, trust: float = np.inf) -> Outcome:
+            return self._found(t, trust, Grip(contacts, most, fine), state, most, fine)
 
-        return gripped(contacts, state, t, find, MOST_ITERATIONS, TOLERANCE)
+        return gripped(contacts, state, t, trust, find, MOST_ITERATIONS, TOLERANCE)
 
     def _found(self, t: float, trust: float, grip: Grip | None, state: State, most: int, fine: float) -> Outcome:
         """Newton's method: most iterations, and increments at which it is done; other arguments as for `find`."""
@@ -156,7 +156,7 @@ class Equilibrium:
             if watch.wandering:
                 reason = ALIASED if watch.aliased else WANDERING
                 break
-            if grip is not None and (grip.circling or step.change > RUNAWAY):
+            if grip is not None and (grip.lost or step.change > RUNAWAY):
                 reason = CIRCLING
                 break
             if iteration == 1 and step.turn > trust:
@@ -187,10 +187,13 @@ class Equilibrium:
         new, turn, bite = self._moved(state, d, spin, N, goal)
         if grip is not None and grip.foresees(new.x, turn):
             return _Step(state, turn, turn, residual, worked_in)
-        watch.see(bite * d[:, SPIN], new.R)
         scale = max(1.0, float(np.abs(new.F_n).max()))
         change = max(turn, float(np.abs(d[:, X]).max()), float(np.abs(new.F_n - state.F_n).max()) / scale)
-        if grip is not None and change < TOLERANCE:
+        if grip is not None and grip.overshoots(change):
+            (half, _, bite), d = self._moved(state, 0.5 * d, 0.5 * spin, N, goal), 0.5 * d
+            new = replace(half, F_n=0.5 * (state.F_n + new.F_n))
+        watch.see(bite * d[:, SPIN], new.R)
+        if grip is not None and change < grip.fine < ROUGH:
             change = max(change, grip.surprise(d, new) / scale)
         return _Step(new, change, turn, residual, worked_in)
 

@@ -8,10 +8,12 @@ has left before, it has begun to go round in circles.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import ceil, log
+from math import ceil, isfinite, log
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from discrete.rounds import Rounds
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,9 +25,9 @@ if TYPE_CHECKING:
     from discrete.touched import Touched
 
     Array = NDArray[np.float64]
-    Find = Callable[[State, int, float], Outcome]
+    Find = Callable[..., Outcome]
 
-__all__ = ["DEEP", "HALF_TURN", "MOST_RENEWALS", "ROLLED", "Grip", "gripped"]
+__all__ = ["DEEP", "HALF_TURN", "MOST_RENEWALS", "ROLLED", "ROUGH", "Grip", "gripped"]
 
 # Iterations after which walls are approached by way of softer ones: what touches then changes little by little.
 DIRECT = 20
@@ -33,6 +35,8 @@ DIRECT = 20
 SOFTEST, STIFFER = 1e5, 100.0
 # Increments in L and radians at which a softer wall has told enough.
 ROUGH = 0.1
+# And at which multipliers may be renewed: what they change is found with the rest.
+NEARLY = 1e-2
 # Trials in which it is found out what a step turning more than that presses, before anything moves.
 FORESIGHTS = 2
 # Renewals of multipliers after which they have failed.
@@ -41,8 +45,6 @@ DEEP = f"rods were deeper in a surface than its tolerance after {MOST_RENEWALS} 
 # Turn in one step beyond which it is not told from the other way round [rad].
 HALF_TURN = 3.0
 ROLLED = "a rod that rubs on a surface turned by about half a turn in one step, more than friction can tell"
-# How often one set of touching and sticking nodes may be come back to.
-MOST_RETURNS = 3
 # Units in the last place of a position, of what is added up to find it.
 ROUND_OFF = 8.0 * float(np.finfo(float).eps)
 
@@ -52,34 +54,40 @@ class Grip:
 
     Args:
         contacts: The contacts of the scene, about to take a step.
+        most: Iterations allowed: `DIRECT` where softer walls come next.
+        fine: Increments at which it is done.
 
     Attributes:
         touched: Resistance where `press` was asked for last.
-        circling: Whether the iteration goes round in circles.
+        fine: As above.
     """
 
     touched: Touched
 
-    def __init__(self, contacts: Surroundings) -> None:
-        self._contacts, self._met, self._last = contacts, dict[bytes, int](), b""
-        self.circling, self._foresights = False, 0
+    def __init__(self, contacts: Surroundings, most: int, fine: float) -> None:
+        self._contacts, self._rounds, self._direct = contacts, Rounds(), most == DIRECT
+        self.fine, self._foresights = fine, FORESIGHTS if self._direct else 0
 
     def press(self, state: State) -> Array:
         """Forces and moments with which the next increments are found, shape (n_nodes, 7)."""
         self._force, self._reach = self._contacts.force(state.x, state.R), self._contacts.reach(state.x)
-        self.touched, pattern = self._contacts.blocks(), self._contacts.pattern
-        if pattern != self._last:
-            self._met[pattern] = self._met.get(pattern, -1) + 1
-            self.circling = self._met[pattern] > MOST_RETURNS
-        self._last = pattern
+        self.touched = self._contacts.blocks()
         return self._force
+
+    def overshoots(self, change: float) -> bool:
+        """Whether an increment of this size leads round in a circle: half of it may not."""
+        return self._rounds.overshoots(self._contacts.sets, change)
+
+    @property
+    def lost(self) -> bool:
+        """Whether the iteration goes round in circles, or is to be given up for softer walls as it only creeps."""
+        return self._rounds.circling or (self._direct and self._rounds.creeping)
 
     def foresees(self, x: Array, turn: float) -> bool:
         """Whether so long a step presses other nodes than it was taken with: it is taken anew with these first."""
-        if turn <= ROUGH or self._foresights == FORESIGHTS or not self._contacts.foresee(x):
-            self._foresights = 0
+        if turn <= ROUGH or not self._foresights or not self._contacts.foresee(x):
             return False
-        self._foresights += 1
+        self._foresights -= 1
         return True
 
     def surprise(self, d: Array, state: State) -> float:
@@ -92,14 +100,17 @@ class Grip:
         return max(0.0, float(np.abs(force - foretold).max()) - blurred)
 
 
-def gripped(contacts: Surroundings, state: State, t: float, find: Find, most: int, fine: float) -> Outcome:
+def gripped(
+    contacts: Surroundings, state: State, t: float, trust: float, find: Find, most: int, fine: float
+) -> Outcome:
     """Equilibrium against surfaces.
 
     Args:
         contacts: The contacts of the scene.
         state: First guess.
         t: Pseudo-time.
-        find: Newton's method from a state on: most iterations, and increments at which it is done.
+        trust: As for `Equilibrium.find`; finite where the guess goes on as the last step went.
+        find: Newton's method from a state on: most iterations, increments at which it is done, and trust.
         most: Iterations allowed.
         fine: Increments at which it is done.
 
@@ -108,13 +119,9 @@ def gripped(contacts: Surroundings, state: State, t: float, find: Find, most: in
     """
     contacts.begin(t)
     contacts.cling()
-    found = _pressed(contacts, state, find, most, fine)
-    for _ in range(MOST_RENEWALS):
-        if not found.converged or contacts.renew():
-            break
-        found = _after(found, find(found.state, most, fine))
-    else:
-        return replace(found, converged=False, reason=DEEP)
+    if isfinite(trust):
+        contacts.glide()
+    found = (_renewed if contacts.renews else _pressed)(contacts, state, trust, find, most, fine)
     pierced = contacts.pierced if found.converged else ""
     if pierced:
         return replace(found, converged=False, reason=pierced)
@@ -123,11 +130,24 @@ def gripped(contacts: Surroundings, state: State, t: float, find: Find, most: in
     return replace(found, strayed=found.strayed and not contacts.changed)
 
 
-def _pressed(contacts: Surroundings, state: State, find: Find, most: int, fine: float) -> Outcome:
+def _renewed(contacts: Surroundings, state: State, trust: float, find: Find, most: int, fine: float) -> Outcome:
+    """Equilibrium with multipliers in line with it: these are renewed where increments have become small."""
+    found = _pressed(contacts, state, trust, find, most, NEARLY)
+    for _ in range(MOST_RENEWALS):
+        if not found.converged:
+            return found
+        done = contacts.renew()
+        found = _after(found, find(found.state, most, fine if done else NEARLY))
+        if done and found.converged and contacts.renew():
+            return found
+    return replace(found, converged=False, reason=DEEP)
+
+
+def _pressed(contacts: Surroundings, state: State, trust: float, find: Find, most: int, fine: float) -> Outcome:
     """Equilibrium with multipliers as they are."""
     stages = max(0, ceil(log(max(contacts.stiffness / SOFTEST, 1.0), STIFFER)))
-    found = find(state, DIRECT if stages else most, fine)
-    if found.converged or not stages:
+    found = find(state, DIRECT if stages else most, fine, trust)
+    if found.converged or not stages or isfinite(trust):
         return found
     for k in range(stages, 0, -1):
         contacts.soften(STIFFER**k)

@@ -147,6 +147,11 @@ class Encounters:
         return self._links
 
     @property
+    def pattern(self) -> bytes:
+        """What touched, stuck and slid in the last answer."""
+        return b"".join(meeting.pattern for meeting in self._meetings)
+
+    @property
     def changed(self) -> bool:
         """Whether the last answer was with other spots that touch, or stick, than the one before."""
         return any(meeting.changed for meeting in self._meetings)

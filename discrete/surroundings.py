@@ -82,6 +82,21 @@ class Surroundings:
         if self.walls is not None:
             self.walls.cling()
 
+    def glide(self) -> None:
+        """Begin it with what slid on surfaces in the last state that counts sliding on."""
+        if self.walls is not None:
+            self.walls.glide()
+
+    @property
+    def renews(self) -> bool:
+        """Whether any law has multipliers."""
+        return self.walls is not None and self.walls.renews
+
+    @property
+    def sets(self) -> bytes:
+        """What touches, sticks and slides, surfaces and rods."""
+        return self.pattern + (b"" if self.others is None else self.others.pattern)
+
     def foresee(self, x: Array) -> bool:
         """Whether a linear step to x changes what is pressed to surfaces."""
         return self.walls is not None and self.walls.foresee(x)

@@ -77,7 +77,7 @@ FINE = {
     ("discrete", "motion"): Setup("discrete", 160, 400),
     ("continuum", "motion"): Setup("continuum", 40, 200, Midpoint()),
 }
-MESHES = {"discrete": (20, 40, 80, 160), "continuum": (5, 10, 20, 40)}
+MESHES = {"discrete": (40, 80, 160, 320), "continuum": (5, 10, 20, 40)}
 STEPS = {None: (10, 20, 40, 80), "motion": (25, 50, 100, 200)}
 # The stiffest is a tenth of what the references have.
 STIFFNESSES = tuple(part * TIGHT.eps_N for part in (1e-3, 1e-2, 1e-1))

@@ -15,8 +15,9 @@ import numpy as np
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.lumped import node_lengths
 from dolfinrod.continuum.rubbing import rubs
+from dolfinrod.continuum.side import Side
 from dolfinrod.continuum.touched import COLUMNS, packed, unpacked
-from dolfinrod.scene import Dynamic, Touch
+from dolfinrod.scene import AugmentedLagrangian, Touch
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,32 +34,20 @@ if TYPE_CHECKING:
 __all__ = ["Contacts", "Memory"]
 
 
-class _Side:
-    """One contact of the scene and the nodes of this rank that may touch it.
-
-    Args:
-        touch: Their points.
-        nodes: Numbers among the rank's own nodes.
-        share: Length of rod for which each stands [m].
-    """
-
-    reply: Reply
-
-    def __init__(self, touch: Touch, nodes: NDArray[np.intp], share: Array) -> None:
-        self.touch, self.nodes, self.share = touch, nodes, share[:, None]
-
-
 class Contacts:
     """All surfaces of a scene against this rank's own nodes.
 
     Args:
         problem: Owner of the state.
         level: Where in a step forces act.
+
+    Attributes:
+        renews: Whether any law has multipliers.
     """
 
     def __init__(self, problem: Problem, level: float = 1.0) -> None:
-        self._problem, self._rubs = problem, rubs(problem.scene)
-        d, scene, inert = problem.discretization, problem.scene, isinstance(problem.scene.motion, Dynamic)
+        self._problem, d, scene = problem, problem.discretization, problem.scene
+        self._rubs, self.renews = rubs(scene), any(isinstance(c.law, AugmentedLagrangian) for c in scene.walls)
         self.r, self.q = d.owned_nodes("r"), d.owned_nodes("q")
         first = self.r[:, 0]
         lengths = node_lengths(problem)[first] * problem.placement.length
@@ -68,8 +57,8 @@ class Contacts:
         self._sides = []
         for contact in scene.walls:
             nodes = np.flatnonzero(rod == contact.rod) if contact.rod is not None else np.arange(len(rod))
-            touch = Touch(contact, radii[rod[nodes]], scene.motion.t_end, level, inert=inert)
-            self._sides.append(_Side(touch, nodes, lengths[nodes]))
+            touch = Touch(contact, radii[rod[nodes]], scene.motion.t_end, level)
+            self._sides.append(Side(touch, nodes, lengths[nodes]))
         self.place(0.0)
 
     def place(self, t: float) -> None:
@@ -88,6 +77,11 @@ class Contacts:
             side.touch.begin(t)
             if self._problem.level == 1.0:
                 side.touch.cling()
+
+    def glide(self) -> None:
+        """Begin the iteration with what slid in the last step sliding on; right after `begin`."""
+        for side in self._sides:
+            side.touch.glide()
 
     def _respond(self) -> None:
         """See to it that the answers are those to the present state."""
@@ -136,7 +130,7 @@ class Contacts:
                 yield from self._turning_blocks(side, change.points, change.f_turn, change.m_x, change.m_turn, q[at])
 
     def _turning_blocks(
-        self, side: _Side, points: NDArray[np.intp], f_turn: Array, m_x: Array, m_turn: Array, q: Array
+        self, side: Side, points: NDArray[np.intp], f_turn: Array, m_x: Array, m_turn: Array, q: Array
     ) -> Iterator[Block]:
         """Those of rotations."""
         place, kin = self._problem.placement, self._problem.kinematics
@@ -155,6 +149,11 @@ class Contacts:
             units = np.repeat(np.eye(q.shape[1]), len(at), axis=0)
             spins = kin.spin(units).reshape(q.shape[1], len(at), -1, q.shape[1])
             yield rows, rows, -np.einsum("knij,ni->njk", spins, moment)
+
+    @property
+    def pattern(self) -> bytes:
+        """Which of this rank's nodes touch, and which of these stick."""
+        return b"".join(side.reply.state.tobytes() for side in self._sides)
 
     @property
     def changed(self) -> bool:

@@ -19,7 +19,7 @@ import numpy as np
 
 from dolfinrod.continuum.coupled import linear_solver
 from dolfinrod.continuum.direct import LIBRARY_ERROR
-from dolfinrod.continuum.pressed import pressed, renewed
+from dolfinrod.continuum.pressed import DIRECT, ROUGH, pressed, renewed
 from dolfinrod.continuum.watch import Unwatched, Watch
 
 if TYPE_CHECKING:
@@ -118,14 +118,14 @@ class Newton:
         Args:
             last: The equilibrium on this rank that the state was extrapolated from; None: it is one itself.
         """
-        contacts, x, fully = self.problem.contacts, self.problem.x, (MOST_ITERATIONS, TOLERANCE)
+        contacts, x, find = self.problem.contacts, self.problem.x, partial(self._found, last)
         if contacts is None:
-            return self._found(last, *fully)
-        return renewed(contacts, lambda: pressed(x, contacts, partial(self._found, last), *fully))
+            return find(MOST_ITERATIONS, TOLERANCE)
+        return renewed(contacts, lambda fine: pressed(x, contacts, find, MOST_ITERATIONS, fine), TOLERANCE)
 
     def _found(self, last: NDArray[np.float64] | None, most: int, fine: float) -> Outcome:
         """A zero of the residual, in so many iterations at most, the last of this size."""
-        self._most, self._fine = most, fine
+        self._most, self._fine, self._foresights = most, fine, FORESIGHTS if most == DIRECT else 0
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
         self._watch = self._watched(last)
@@ -185,8 +185,7 @@ class Newton:
 
     def _limit(self, X: PETSc.Vec, Y: PETSc.Vec) -> bool:
         """Replace the Newton step Y (x − Y is next) by one that stays on the manifold and turns at most so far."""
-        kin = self.problem.kinematics
-        x, y = X.array_r, Y.array
+        kin, x, y = self.problem.kinematics, X.array_r, Y.array
         q = x[self._q]
         increment = kin.increment(q, -y[self._q])
         sizes = np.abs(y), np.abs(x)
@@ -195,23 +194,23 @@ class Newton:
         if turn > WIDE and self._foresees(x, y):
             y[:] = 0.0
             return True
+        before, self._size = (self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0))))
         if turn > LARGEST_TURN:
             increment *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
+        if self._watch.returned(self._size):
+            increment, y[:] = 0.5 * increment, 0.5 * y
         self._watch.see(q, increment, limited=turn > LARGEST_TURN)
         y[self._q] = q - kin.turn(q, increment)
-        self._moved = max(turn, largest[1])
-        before, self._size = (self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0))))
-        self._next = self._expected(before, self._size)
+        self._moved, self._next = max(turn, largest[1]), self._expected(before, self._size)
         return True
 
     def _foresees(self, x: Array, y: Array) -> bool:
         """Whether so long a step presses other points than it was taken with: it is taken anew with these first."""
         contacts = self.problem.contacts
-        if contacts is None or self._foresights == FORESIGHTS or not contacts.foresee(x[self._r] - y[self._r]):
-            self._foresights = 0
+        if contacts is None or not self._foresights or not contacts.foresee(x[self._r] - y[self._r]):
             return False
-        self._foresights += 1
+        self._foresights -= 1
         return True
 
     def _expected(self, before: float, size: float) -> float:
@@ -221,7 +220,7 @@ class Newton:
     def _settled(self) -> bool:
         """Whether no further increment matters."""
         if self._fine > TOLERANCE:
-            return self._size < self._fine
+            return self._size < self._fine and not (self._fine < ROUGH and self._touches_anew)
         return (self._size < TOLERANCE or self._next < NEGLIGIBLE) and not self._touches_anew
 
     @property
@@ -243,4 +242,5 @@ class Newton:
             return reasons.DIVERGED_DTOL
         if iteration > 0 and self._settled():
             return reasons.CONVERGED_SNORM_RELATIVE
-        return reasons.DIVERGED_MAX_IT if iteration >= self._most else reasons.ITERATING
+        ends = iteration >= self._most or (self._most == DIRECT and self._watch.creeping)
+        return reasons.DIVERGED_MAX_IT if ends else reasons.ITERATING

@@ -15,6 +15,7 @@ import numpy as np
 from dolfinrod.continuum.everywhere import Everywhere, strands
 from dolfinrod.continuum.links import Frames, linked
 from dolfinrod.continuum.met import kept, remembered
+from dolfinrod.continuum.working import working
 from dolfinrod.scene import Dynamic
 from dolfinrod.scene.meeting import Meeting
 
@@ -118,17 +119,7 @@ class Pairs:
             b[self.q] -= np.einsum("nij,ni->nj", spin, self._moment @ place.spin_axes / place.moment)
 
     def _working(self, q: Array) -> tuple[Array, Array]:
-        """Rotations in whose spins moments work in the balance, and their gradient by those after the step.
-
-        Unit quaternions q between the ends of a step belong to shorter ones q̄, in which the balance is written: with
-        the spins of q/|q̄| couples that add up to nothing leave the moment of momentum as it is.
-        """
-        one = np.broadcast_to(np.eye(q.shape[1]), (*q.shape, q.shape[1]))
-        if self._level == 1.0 or q.shape[1] == 1:
-            return q, one
-        between = (1.0 - self._level) * self._q_0 + self._level * self._problem.x[self.q]
-        length = np.linalg.norm(between, axis=1)[:, None]
-        return q / length, self._level * (one - 2.0 * q[:, :, None] * q[:, None]) / length[:, :, None] ** 2
+        return working(q, self._q_0, self._problem.x[self.q], self._level)
 
     def blocks(self, q: Array) -> Sequence[Block]:
         """Rows, columns and entries of single nodes in the tangent by the state after the step; q as above.
@@ -198,6 +189,17 @@ class Pairs:
         self._seen = None
         for meeting in self._meetings:
             meeting.soften(by)
+
+    # No law of rods has multipliers.
+    renews = False
+
+    def glide(self) -> None:
+        """Rods that slid are seen to slide on by their anchors alone."""
+
+    @property
+    def pattern(self) -> bytes:
+        """What touches, sticks and slides among this rank's elements."""
+        return b"".join(meeting.pattern for meeting in self._meetings)
 
     def foresee(self, r: Array) -> bool:
         """No long step is taken anew: what rods press against moves with them."""

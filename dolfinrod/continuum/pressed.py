@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Find = Callable[[int, float], Outcome]
 
-__all__ = ["DIRECT", "pressed", "renewed"]
+__all__ = ["DIRECT", "ROUGH", "pressed", "renewed"]
 
 # Iterations after which a wall is approached by way of softer ones: what is pressed then changes little by little.
 DIRECT = 20
@@ -25,6 +25,8 @@ DIRECT = 20
 SOFTEST, STIFFER = 1e5, 100.0
 # Increments, relative to the unknowns, at which a softer wall has told enough.
 ROUGH = 0.1
+# And at which multipliers may be renewed: what they change is found with the rest.
+NEARLY = 1e-2
 # Renewals of multipliers after which a step is given up.
 MOST_RENEWALS = 50
 PENETRATES = "penetrations stayed above the tolerance of an augmented Lagrangian: its eps_N is too small for these rods"
@@ -62,20 +64,26 @@ def pressed(x: NDArray[np.float64], contacts: Touching, find: Find, most: int, f
     return replace(found, iterations=spent + found.iterations)
 
 
-def renewed(contacts: Touching, find: Callable[[], Outcome]) -> Outcome:
+def renewed(contacts: Touching, find: Callable[[float], Outcome], fine: float) -> Outcome:
     """Equilibrium with multipliers in line with it.
 
     Args:
         contacts: What the rods touch.
-        find: Equilibrium from the state on, multipliers as they are.
+        find: Equilibrium from the state on, multipliers as they are, up to increments of a size.
+        fine: Increments at which it is done.
 
     Returns:
         How it ended, all iterations counted.
     """
-    found = find()
+    if not contacts.renews:
+        return find(fine)
+    found = find(NEARLY)
     for _ in range(MOST_RENEWALS):
-        if not found.converged or contacts.renew():
+        if not found.converged:
             return found
-        again = find()
+        done = contacts.renew()
+        again = find(fine if done else NEARLY)
         found = replace(again, iterations=found.iterations + again.iterations, strayed=found.strayed)
+        if done and contacts.renew():
+            return found
     return replace(found, converged=False, reason=PENETRATES)

@@ -201,13 +201,14 @@ class Walk:
             last = problem.x.copy()
             self._readout.restore(self._extrapolated(step / (path.t[-1] - path.t[-2])))
         problem.advance_to(t)
+        if problem.contacts is not None and path.log and not self._stride.cuts and path.t[-1] not in self._corners:
+            problem.contacts.glide()
         outcome = equilibrium(self.newton, self._phase, last)
         if not outcome.converged:
             return outcome, None, None
-        if problem.walls is not None and problem.walls.pierced:
-            return replace(outcome, converged=False, reason=PIERCED), None, None
-        if problem.pairs is not None and problem.pairs.pierced:
-            return replace(outcome, converged=False, reason=PASSED), None, None
+        for touched, through in ((problem.walls, PIERCED), (problem.pairs, PASSED)):
+            if touched is not None and touched.pierced:
+                return replace(outcome, converged=False, reason=through), None, None
         turn = largest_turn_between_nodes(problem)
         if turn > ALIASED:
             return replace(outcome, converged=False, reason=COARSE.format(turn)), None, None

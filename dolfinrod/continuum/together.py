@@ -29,6 +29,20 @@ class Touching(Protocol):
 
     q: NDArray[np.int32]
 
+    @property
+    def renews(self) -> bool:
+        """Whether any law has multipliers."""
+        ...
+
+    @property
+    def pattern(self) -> bytes:
+        """What touches, sticks and slides on this rank."""
+        ...
+
+    def glide(self) -> None:
+        """Begin an iteration with what slid in the last state that counts sliding on."""
+        ...
+
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
         ...
@@ -91,7 +105,17 @@ class Together:
     def __init__(self, walls: Contacts, pairs: Pairs) -> None:
         self._walls, self._pairs = walls, pairs
         self._both: tuple[Touching, Touching] = walls, pairs
-        self.q = walls.q
+        self.q, self.renews = walls.q, walls.renews
+
+    @property
+    def pattern(self) -> bytes:
+        """Of both."""
+        return b"".join(part.pattern for part in self._both)
+
+    def glide(self) -> None:
+        """Both begin with what slid."""
+        for part in self._both:
+            part.glide()
 
     def begin(self, t: float) -> None:
         """A step leads to time t."""

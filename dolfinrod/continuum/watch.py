@@ -8,6 +8,8 @@ from mpi4py import MPI
 
 import numpy as np
 
+from dolfinrod.continuum.rounds import Rounds
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -43,6 +45,7 @@ class Watch:
         (self._travelled,) = self._largest(np.linalg.norm(self._net, axis=1))
         self.lost = False
         self._set_out = None if last is None else self._net.copy()
+        self._rounds = Rounds(self._comm, problem.contacts)
 
     def see(self, q: Array, increment: Array, *, limited: bool) -> None:
         """Take note of an iteration.
@@ -60,6 +63,15 @@ class Watch:
             turn, net = self._largest(np.linalg.norm(spin, axis=1), np.linalg.norm(self._net, axis=1))
             self._travelled += turn
             self.lost = bool(self._travelled - net > LARGEST_DETOUR)
+
+    def returned(self, size: float) -> bool:
+        """Whether an increment of this size leads round in a circle."""
+        return self._rounds.returned(size)
+
+    @property
+    def creeping(self) -> bool:
+        """Whether increments have hardly become shorter lately."""
+        return self._rounds.creeping
 
     def strayed(self) -> bool:
         """Whether the sections have turned, in all, against the way they set out, as to a mirrored branch."""
@@ -79,7 +91,11 @@ class Watch:
 class Unwatched:
     """No watch: a step in time is too short to wander."""
 
-    lost = False
+    lost = creeping = False
+
+    def returned(self, size: float) -> bool:
+        """It does not."""
+        return False
 
     def see(self, q: Array, increment: Array, *, limited: bool) -> None:
         """Take no note."""

@@ -66,13 +66,14 @@ class Pressing:
         self._led: tuple[Flags, Array, Array, Array] | None = None
         self._foreseen: tuple[Flags, Array] | None = None
 
-    def at(self, X: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:
+    def at(self, X: Array, gap: Array, λ: Array, torn: Flags) -> tuple[Array, Array, Flags, Array]:
         """Pressures at the end of a step.
 
         Args:
             X: Points, shape (n, 3) [m].
             gap: Shape (n,) [m].
             λ: Multipliers, shape (n,) [N/m].
+            torn: Points that are not let go in this answer, shape (n,).
 
         Returns:
             p, dp/dg, which points are pressed, and the pressure under which normals turn, each of shape (n,).
@@ -86,7 +87,7 @@ class Pressing:
         else:
             was, X_0, p_0, p_X = self._led
             hoped = p_0 + np.einsum("ni,ni->n", p_X, X - X_0)
-            pressed = np.where(was, hoped > 0.0, pressed)
+            pressed = np.where(was, (hoped > 0.0) | torn, pressed)
             expected = np.where(was, np.maximum(hoped, 0.0), 0.0)
         drawn, stiff = self.law.drawn(gap, λ)
         p, slope = np.where(pressed, drawn, 0.0), np.where(pressed, stiff, 0.0)

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Pressed", "Rubbing", "Step", "cross", "rubbed", "skew", "slip_gradients", "traction_gradient"]
+__all__ = ["Pressed", "Rubbing", "Step", "cross", "far_off", "rubbed", "skew", "slip_gradients", "traction_gradient"]
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 # Of a traction, against its limit.
 ROUND_OFF = 1e-12
@@ -53,7 +54,7 @@ class Rubbing:
         slipped: Way of the anchors in the step under pressure, shape (n,) [m].
         u: Displacement from where the anchors were, shape (n, 3) [m].
         slides: Whether the anchors moved, shape (n,).
-        forced: Whether any was kept from it, which no equilibrium does.
+        forced: Whether any was kept from it, or made to, which no equilibrium does.
     """
 
     traction: Array
@@ -93,11 +94,18 @@ class Step:
     rubbing: Rubbing | None
 
 
-def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: NDArray[np.bool_], slid: Array) -> Rubbing:
+def far_off(v: Array, n: Array) -> tuple[Array, Array]:
+    """The part of displacements v across normals n, and its length, shapes (n, 3) and (n,)."""
+    u = v - np.einsum("ni,ni->n", v, n)[:, None] * n
+    return u, np.sqrt(np.einsum("ni,ni->n", u, u))
+
+
+def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: Flags, glides: Flags, slid: Array) -> Rubbing:
     """Return mapping: the anchors follow where they would pull harder than μ p.
 
     In an iteration a point that slid one way does not slide back before it was seen what it does if it sticks: between
-    the two ways the slope of sliding, which is none, tells Newton's method nothing.
+    the two ways the slope of sliding, which is none, tells Newton's method nothing. The pressure of an iterate may be
+    below zero; friction follows it there, so that its slope is true.
 
     Args:
         pressed: The points.
@@ -105,15 +113,16 @@ def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: NDArray[n
         μ: Coefficient of friction.
         ε_T: Stiffness of the anchors [N/m²].
         clings: Points whose anchors stay however hard they pull, shape (n,).
+        glides: Points whose anchors follow however little they pull, shape (n,).
         slid: u in the last answer of those that slid, zero for others, shape (n, 3) [m].
 
     Returns:
         Tractions and where the anchors are.
     """
-    u = v - np.einsum("ni,ni->n", v, pressed.n)[:, None] * pressed.n
-    far, reach = np.sqrt(np.einsum("ni,ni->n", u, u)), μ * np.maximum(pressed.p, 0.0) / ε_T
-    slides = (far > reach) & ~clings & (np.einsum("ni,ni->n", u, slid) >= 0.0)
-    forced = bool(((far > reach * (1.0 + ROUND_OFF)) & ~slides).any())
+    (u, far), reach = far_off(v, pressed.n), μ * pressed.p / ε_T
+    slides = (far > np.maximum(reach, 0.0)) & ~clings & (np.einsum("ni,ni->n", u, slid) >= 0.0)
+    slides |= glides & (far > 0.0)
+    forced = bool(np.where(slides, far < reach * (1.0 - ROUND_OFF), far > reach * (1.0 + ROUND_OFF)).any())
     held = np.where(slides, reach / np.where(slides, far, 1.0), 1.0)
     anchored = held[:, None] * u
     return Rubbing(-ε_T * anchored, anchored, np.where(slides & (pressed.p > 0.0), far - reach, 0.0), u, slides, forced)
@@ -135,7 +144,7 @@ def traction_gradient(pressed: Pressed, rubbing: Rubbing, u_q: Array, μ: float,
     far = np.sqrt(np.einsum("ni,ni->n", rubbing.u, rubbing.u))
     slides = rubbing.slides
     e = rubbing.u / np.where(far > 0.0, far, 1.0)[:, None]
-    shrunk = np.where(slides, μ * np.maximum(pressed.p, 0.0) / (ε_T * np.where(slides, far, 1.0)), 1.0)[:, None, None]
+    shrunk = np.where(slides, μ * pressed.p / (ε_T * np.where(slides, far, 1.0)), 1.0)[:, None, None]
     along = np.where(slides, 1.0, 0.0)[:, None, None] * e[:, :, None] * np.einsum("ni,nij->nj", e, u_q)[:, None, :]
     follows = np.where(slides, μ, 0.0)[:, None, None] * e[:, :, None] * pressed.p_X[:, None, :]
     return -ε_T * shrunk * (u_q - along) - follows

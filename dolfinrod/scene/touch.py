@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.creeping import against, creeping_gradient
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
 from dolfinrod.scene.piercing import pierces
 from dolfinrod.scene.pressing import GRAZING, Pressing
 from dolfinrod.scene.reply import OPEN, SLIDES, STICKS, Booked, Gradient, Reply
-from dolfinrod.scene.rubbing import Pressed, Step, cross, rubbed, skew, slip_gradients, traction_gradient
+from dolfinrod.scene.rubbing import Pressed, Step, cross, far_off, rubbed, skew, slip_gradients, traction_gradient
 from dolfinrod.scene.surfaces import REST, Pose
 
 if TYPE_CHECKING:
@@ -37,13 +38,10 @@ class Touch:
         radius: Of the rod at each point, shape (n,) [m].
         t_end: Where the time of the scene ends.
         level: Where in a step forces act: 1 at its end, ½ in the middle.
-        inert: Whether the rods have inertia: then what slid one way in an answer halts before it slides back.
     """
 
-    def __init__(
-        self, contact: Contact, radius: Array, t_end: float, level: float = 1.0, *, inert: bool = False
-    ) -> None:
-        self.contact, self._radius, self._t_end, self._level, self._inert = contact, radius, t_end, level, inert
+    def __init__(self, contact: Contact, radius: Array, t_end: float, level: float = 1.0) -> None:
+        self.contact, self._radius, self._t_end, self._level = contact, radius, t_end, level
         self._friction, self._pressing = contact.friction, Pressing(contact.law, radius)
         self.adopt = self._pressing.adopt
         anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
@@ -65,7 +63,8 @@ class Touch:
         """A step from where the rods were last accepted leads to time t."""
         self._λ = self._λ_0.copy()
         self._pressing.begin()
-        self._clings, self._slid = np.zeros(len(self._radius), dtype=bool), np.zeros((len(self._radius), 3))
+        self._slid = np.zeros((len(self._radius), 3))
+        self._clings = self._glides = self._stuck = np.zeros(len(self._radius), dtype=bool)
         self._ε_T = self._stiffness
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
         unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
@@ -104,12 +103,13 @@ class Touch:
             traction[on] = t @ Q.T
             moment[on] = -pressed.radius[:, None] * cross(pressed.n, t) @ Q.T
         elif isinstance(self._friction, CreepingCoulomb) and len(on):
-            v, speed = self._velocity(x[on])
+            v, speed = against((x - self._x_0)[on], self._rate, self._friction.v_0)
             traction[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
         self.forced = step.rubbing is not None and step.rubbing.forced
         self.changed = self.forced or not np.array_equal(state, self._state)
         self._state, self._x, self._turn = state, x.copy(), turn.copy()
-        self._clings = np.zeros(n, dtype=bool)
+        self._clings, self._glides = np.zeros((2, n), dtype=bool)
+        self._stuck = (state == STICKS) & (pressure > 0.0)
         self._reply = Reply(step.gap, pressure, normal, traction, moment, state)
         return self._reply
 
@@ -118,7 +118,7 @@ class Touch:
         closest = self.contact.surface.closest(X)
         gap, at_end = closest.distance - self._radius, closest.normal
         if self._level == 1.0:
-            p, slope, touch, expected = self._pressing.at(X, gap, self._λ)
+            p, slope, touch, expected = self._pressing.at(X, gap, self._λ, self._torn(X, turned, at_end))
         else:
             p, slope, touch, expected = self._pressing.mean(self._gap_0, gap, self._λ)
             closest = self.contact.surface.closest((1.0 - self._level) * self._X_0 + self._level * X)
@@ -136,16 +136,19 @@ class Touch:
         share = np.where(far, np.clip((self._pressing.law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
         w = (X - self._X_0)[on] - pressed.radius[:, None] * cross(turned[on], pressed.n)
         v = self._u[on] + share[:, None] * w
-        rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on], self._slid[on])
+        rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on], self._glides[on], self._slid[on])
         self._slid[:] = 0.0
-        self._slid[on] = np.where(rubbing.slides[:, None], rubbing.u, 0.0) * self._inert
+        self._slid[on] = np.where(rubbing.slides[:, None], rubbing.u, 0.0)
         return Step(X, turned, gap, at_end, on, pressed, share, w, v, rubbing)
 
-    def _velocity(self, x: Array) -> tuple[Array, Array]:
-        """Velocity of the points that touch in space, and √(|v|² + v_0²)."""
-        assert isinstance(self._friction, CreepingCoulomb)
-        v = (x - self._x_0[self._step.on]) * self._rate
-        return v, np.sqrt(np.einsum("ni,ni->n", v, v) + self._friction.v_0**2)
+    def _torn(self, X: Array, turned: Array, n: Array) -> NDArray[np.bool_]:
+        """Points that stuck in the last answer, harder than the pressure there allows: they slide before they leave."""
+        torn, at = self._stuck.copy(), np.flatnonzero(self._stuck)
+        if len(at) and isinstance(self._friction, Coulomb):
+            w = (X - self._X_0)[at] - self._radius[at, None] * cross(turned[at], n[at])
+            _, far = far_off(self._u[at] + w, n[at])
+            torn[at] = far > self._friction.mu * self._reply.pressure[at] / self._ε_T
+        return torn
 
     def gradient(self) -> Gradient:
         """Derivatives of the last reply."""
@@ -164,24 +167,22 @@ class Touch:
             m_x = -r * (across @ t_x - skew(step.rubbing.traction) @ pressed.n_X)
             return self._in_space(f_x + t_x, t_turn, m_x, -r * (across @ t_turn))
         if isinstance(self._friction, CreepingCoulomb):
-            f_x = f_x + self._creeping_gradient(self._friction)
+            v, speed = against((self._x - self._x_0)[step.on], self._rate, self._friction.v_0)
+            Q, end, μ = self._acting.Q, self._end.Q, self._friction.mu
+            f_x = f_x + creeping_gradient(pressed, v, speed, self._rate, μ, Q, end)
         return self._in_space(f_x, none, none, none)
 
     def _in_space(self, *blocks: Array) -> Gradient:
         f_x, f_turn, m_x, m_turn = (self._acting.Q @ block @ self._end.Q.T for block in blocks)
         return Gradient(self._step.on, f_x, f_turn, m_x, m_turn)
 
-    def _creeping_gradient(self, friction: CreepingCoulomb) -> Array:
-        """∂t/∂X of friction against the velocity, in the axes of the wall."""
-        v, speed = self._velocity(self._x[self._step.on])
-        p, Q = self._step.pressed.p, self._acting.Q
-        bent = np.eye(3) / speed[:, None, None] - v[:, :, None] * v[:, None, :] / (speed**3)[:, None, None]
-        follows = (v @ Q / speed[:, None])[:, :, None] * self._step.pressed.p_X[:, None, :]
-        return -friction.mu * (follows + Q.T @ bent @ self._end.Q * (p * self._rate)[:, None, None])
-
     def cling(self) -> None:
         """Begin the iteration with what was pressed and stuck before, wherever the wall has gone meanwhile."""
         self._clings = self._pressing.cling(self._state_0 > OPEN, self._gap_0) & (self._state_0 != SLIDES)
+
+    def glide(self) -> None:
+        """Begin it with what slid before sliding on, as it does where the loads go on as they did."""
+        self._glides = self._state_0 == SLIDES
 
     def foresee(self, x: Array) -> bool:
         """Whether a linear step to x presses other points than it was taken with: `adopt` lets them be pressed here."""

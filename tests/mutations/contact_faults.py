@@ -67,9 +67,11 @@ def _drawn_everywhere(
     return p, slope, np.ones(len(gap), dtype=bool), p
 
 
-def _never_released(right: Any, self: Pressing, X: Array, gap: Array, λ: Array) -> tuple[Array, Array, Array, Array]:
+def _never_released(
+    right: Any, self: Pressing, X: Array, gap: Array, λ: Array, torn: Array
+) -> tuple[Array, Array, Array, Array]:
     """What was pressed once stays so."""
-    p, slope, pressed, expected = right(self, X, gap, λ)
+    p, slope, pressed, expected = right(self, X, gap, λ, torn)
     kept = self._once = pressed | getattr(self, "_once", False)
     drawn, stiff = self.law.drawn(gap, λ)
     return np.where(kept, drawn, p), np.where(kept, stiff, slope), kept, np.where(kept, drawn, expected)
@@ -89,7 +91,16 @@ def _limit_before(right: Any, self: Touch, X: Array, turned: Array) -> Step:
     p = self._pressing.law.pressure(self._gap_0, self._λ_0)[0][step.on]
     before = replace(step.pressed, p=p)
     return replace(
-        step, rubbing=rubbed(before, step.v, self._friction.mu, self._ε_T, self._clings[step.on], self._slid[step.on])
+        step,
+        rubbing=rubbed(
+            before,
+            step.v,
+            self._friction.mu,
+            self._ε_T,
+            self._clings[step.on],
+            self._glides[step.on],
+            self._slid[step.on],
+        ),
     )
 
 

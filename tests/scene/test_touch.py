@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import dolfinrod as dr
 from dolfinrod.scene import Touch
-from dolfinrod.scene.reply import OPEN, Booked, Reply
+from dolfinrod.scene.reply import OPEN, SLIDES, STICKS, Booked, Reply
 from tests.scenes import FLAT, Pose, largest, poses
 
 Array = NDArray[np.float64]
@@ -329,3 +329,43 @@ def test_a_point_that_leaves_and_comes_back_begins_anew() -> None:
     assert (left.state, left.force.any()) == (OPEN, False)
     assert booked.rubbed > 0.0  # what the anchor still held
     assert not back.traction.any()
+
+
+def pushed_along(way: float) -> Touch:
+    """A point on a floor of 1e4 N/m², pressed by 1 N/m, that a step has taken along it, μ = 0.5."""
+    contact = dr.Contact(dr.Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), dr.Penalty(1e4), dr.Coulomb(0.5))
+    points = Touch(contact, np.array([0.01]), 2.0)
+    points.place(np.array([[0.0, 0.0, 0.0099]]), 0.0)
+    points.begin(1.0)
+    fresh(points, np.array([[way, 0.0, 0.0099]]), np.zeros((1, 3)))
+    points.accept()
+    points.begin(2.0)
+    return points
+
+
+@given(way=st.floats(1e-4, 1e-2))
+def test_what_slid_slides_on_where_it_is_told_to_and_halts_before_it_slides_back(way: float) -> None:
+    points, still = pushed_along(way), np.zeros((1, 3))
+    points.cling()
+    points.glide()
+    on = points.respond(np.array([[1.00001 * way, 0.0, 0.0099]]), still)
+    assert (on.state[0], points.forced) == (SLIDES, False)
+    assert on.traction[0] == pytest.approx([-0.5, 0.0, 0.0], abs=1e-9)
+    back = points.respond(np.array([[-way, 0.0, 0.0099]]), still)
+    assert (back.state[0], points.forced) == (STICKS, True)
+    assert points.respond(np.array([[-way, 0.0, 0.0099]]), still).traction[0] == pytest.approx(
+        [0.5, 0.0, 0.0], abs=1e-9
+    )
+
+
+@given(way=st.floats(1e-3, 1e-2), off=st.floats(1e-6, 1e-4))
+def test_what_stuck_too_hard_slides_before_it_leaves(way: float, off: float) -> None:
+    points, still = pushed_along(1e-6), np.zeros((1, 3))
+    points.cling()
+    assert points.respond(np.array([[1e-6, 0.0, 0.0099]]), still).state[0] == STICKS
+    torn = points.respond(np.array([[way, 0.0, 0.01 + off]]), still)
+    # Its pressure is below zero, and so is what friction does: the line that Newton's method follows.
+    assert torn.state[0] == SLIDES
+    assert torn.pressure[0] == pytest.approx(-1e4 * off, rel=1e-9)
+    assert torn.traction[0] == pytest.approx([0.5e4 * off, 0.0, 0.0], rel=1e-9)
+    assert points.respond(np.array([[way, 0.0, 0.01 + off]]), still).state[0] == OPEN

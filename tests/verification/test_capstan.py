@@ -178,3 +178,11 @@ def test_order_of_loading_matters(model, elements):
     assert found["further"] == pytest.approx(string.further(loop.strong, quarter), rel=2e-2)
     assert found["back"] == pytest.approx(string.let_back(loop.strong, quarter), rel=2e-2)
     assert found["back"] > 1.1 * found["further"]
+
+
+@BOTH
+def test_ropes_to_and_fro_take_few_iterations(model, elements):
+    """Zones of slip grow, stop and turn: no step goes round in circles."""
+    loop = Loop(0.3, 180.0, 0.9)
+    result = model.solve(loop.scene(4), elements)
+    assert result.statistics.newton_iterations <= 12 * len(result.log)

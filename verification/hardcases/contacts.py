@@ -27,6 +27,7 @@ from dolfinrod.scene import (
     Scene,
     Section,
     SmoothPenalty,
+    Static,
 )
 from verification.answers import Beside, Exact
 from verification.contacts.groove import lateral
@@ -191,14 +192,15 @@ def over_lip() -> HardContact:
 
 
 def across_edge() -> HardContact:
-    """Its free end hangs over a lip, pulled down until it stands up."""
+    """Its free end hangs over a lip, pulled down until it stands up, 2.7 rad, by one half of the load and the other."""
 
     def scene() -> Scene:
         start = (0.0, RADIUS + TIGHT.g_0, -4.5e-3)
         rod = Rod.straight(length=4e-3, section=Section.ramie(), start=start, direction=(0.0, 0.0, 1.0))
         groove = Groove(((-6e-3, 0.0), (-1.5e-3, 0.0), (-1.4e-3, -4e-3), (6e-3, -4e-3)))
         walls = [Contact(face, TIGHT) for face in groove.faces()]
-        return Scene([rod], [Clamp("start")], [PointForce((0.0, -1e-3, 0.0), at="end")], walls)
+        pull = PointForce((0.0, -1e-3, 0.0), at="end")
+        return Scene([rod], [Clamp("start")], [pull], walls, motion=Static(steps=2))
 
     title = "Pulled down across a steep edge by 1 mN"
     return HardContact("edge", "polyline edges", title, scene, Beside(), elements=32, discrete=80, limit=1e-2)

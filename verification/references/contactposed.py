@@ -128,6 +128,7 @@ POSED = {
 
 
 def quantities(found: Pushed) -> dict[str, float]:
-    """By name: the state at the start and at the end, such as "n_x0" and "y1", ∫ p ds, and edges of contact."""
+    """By name: the state at the start and at the end, such as "n_x0" and "y1", two integrals, and edges of contact."""
     ends = {f"{name}{k}": float(u[c]) for k, u in enumerate((found.start, found.end)) for name, c in COMPONENTS.items()}
-    return {**ends, "pressed": found.force, **{f"edge{k}": float(s) for k, s in enumerate(found.edges)}}
+    integrals = {"pressed": found.force, "drawn_in": found.drawn_in}
+    return {**ends, **integrals, **{f"edge{k}": float(s) for k, s in enumerate(found.edges)}}

@@ -145,6 +145,11 @@ class Pushed:
         return self.line.integral(self.rod.pressure)
 
     @property
+    def drawn_in(self) -> float:
+        """∫ (1 − cos θ) ds, by how much less than its length the rod reaches along x, to all digits [m]."""
+        return self.line.integral(lambda u: 2.0 * np.sin(0.5 * u[..., ANGLE]) ** 2)
+
+    @property
     def edges(self) -> Array:
         """Where contact begins or ends [m]."""
         return np.cumsum(self.line.lengths)[:-1]

@@ -82,6 +82,11 @@ class Meeting:
         self._stored: float | None = None
 
     @property
+    def pattern(self) -> bytes:
+        """What touched, stuck and slid in the last answer."""
+        return self._state.tobytes()
+
+    @property
     def pairs(self) -> Integers:
         """Pairs of cells that may touch until `stale`, shape (n, 2)."""
         cells = np.stack([self._spans.cell[self._near.a], self._spans.cell[self._near.b]], axis=1)

@@ -87,7 +87,8 @@ def slide(
     share, share_gap = _shares(pressed, g_0)
     v = rotated(0.5 * both, anchors) + share[:, None] * w
     limits = Limits(pressed.p, np.zeros_like(n), n, np.zeros((len(n), 3, 3)), pressed.radius_a, pressed.p)
-    rubbing = rubbed(limits, v, *friction, np.zeros(len(n), dtype=bool), slid)
+    none = np.zeros(len(n), dtype=bool)
+    rubbing = rubbed(limits, v, *friction, none, none, slid)
     both_v, w_v = np.einsum("nm,nmi->ni", h_v, turns), np.einsum("nm,nmi->ni", h_v, ways)
     return Slip(lever, arms[:, 1], turned, both, both_v, w_v, w, anchors, share, share_gap, v, rubbing)
 
