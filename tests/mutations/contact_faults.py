@@ -60,7 +60,7 @@ def _no_slope_of_the_moment(right: Any, *args: Any) -> Gradient:
 
 
 def _drawn_everywhere(
-    _right: Any, self: Pressing, _X: Array, gap: Array, λ: Array
+    _right: Any, self: Pressing, _X: Array, gap: Array, λ: Array, _torn: Array
 ) -> tuple[Array, Array, Array, Array]:
     """p = ε (g_0 − g), below zero where the gap is wider."""
     p, slope = self.law.drawn(gap, λ)
