@@ -1,4 +1,4 @@
-"""Audit of the ledger of a motion with contact: whether it closes, and what the steps made or took."""
+"""Audit of contact: whether the ledger of a motion closes, what its steps made or took, how deep rods were."""
 
 from __future__ import annotations
 
@@ -9,9 +9,11 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from dolfinrod.result import Result
+
     Array = NDArray[np.float64]
 
-__all__ = ["audit"]
+__all__ = ["audit", "deepest_of"]
 
 STORED = ("kinetic", "strain", "potential", "contact")
 # Works that may bring energy in, and those that only take it or are the steps' own.
@@ -39,3 +41,12 @@ def audit(energy: dict[str, Array]) -> tuple[float, float, float]:
     supplied = max(start + brought + falls, least)
     made = since["numerical"]
     return gap / largest, -float(made[-1]) / supplied, float(made.max()) / supplied
+
+
+def deepest_of(result: Result) -> float:
+    """How far rods came into one another at any stored time, over the sum of their radii; NaN where none met."""
+    radius = np.array([np.nan if rod.section.radius is None else rod.section.radius for rod in result.scene.rods])
+    depths = [
+        -met.gap / (radius[met.rod_a] + radius[met.rod_b]) for contact in result.meetings for met in contact.times
+    ]
+    return float(max((depth.max() for depth in depths if len(depth)), default=np.nan))

@@ -9,15 +9,17 @@ from verification.contactmaps import LENGTH, MESHES, SCHEMES, STEPS, STIFFNESSES
 from verification.contacts.groove import CASES
 from verification.groovebench import sweep, sweeps
 from verification.grooveprofile import side_by_side
-from verification.hardcases import contactmotions, contacts, contactways
+from verification.hardcases import contactmotions, contacts, contactways, rodcontacts, rodshots, rodways
 from verification.hardcontact import HardContact, hard_contact, pairs
 from verification.ledger import Unit
 
-__all__ = ["GROOVE", "HARD_CONTACT", "MAPS", "listing", "names", "units"]
+__all__ = ["GROOVE", "HARD", "HARD_CONTACT", "MAPS", "RODS", "WALLS", "listing", "names", "units"]
 
 # Chosen like families; a single hard contact as "hard-contact:NAME".
 GROOVE, MAPS, HARD_CONTACT = "groove", "contact-maps", "hard-contact"
-HARD = (*contacts.CASES, *contactways.CASES, *contactmotions.CASES)
+WALLS = (*contacts.CASES, *contactways.CASES, *contactmotions.CASES)
+RODS = (*rodcontacts.CASES, *rodways.CASES, *rodshots.CASES)
+HARD = (*WALLS, *RODS)
 # A quick run: every so many cells of one mesh, and two walls.
 QUICK_MESH, QUICK_WALLS, QUICK_STEPS = 5, STIFFNESSES[1:3], STEPS[1::2]
 

@@ -12,7 +12,7 @@ import numpy as np
 from dolfinrod.result import NotConverged
 from dolfinrod.scene import Dynamic, ImplicitEuler, Midpoint, SceneError, Static
 from verification.answers import solved
-from verification.contactaudit import audit
+from verification.contactaudit import audit, deepest_of
 from verification.hardmotion import ROUND_OFF
 from verification.patience import CRAWLS, Patience
 
@@ -72,6 +72,7 @@ class ContactRow:
         error: Relative.
         answer: What it is measured against.
         ms: Of all steps [ms].
+        deepest: How far rods came into one another at most, over their radii; NaN where none touched another.
     """
 
     case: str
@@ -86,6 +87,7 @@ class ContactRow:
     error: float
     answer: str
     ms: float
+    deepest: float = np.nan
 
     @property
     def a_step(self) -> float:
@@ -136,12 +138,13 @@ def hard_contact(case: HardContact, model: str, scheme: Scheme | None) -> Contac
     if outcome == "converged" and result is not None:
         ms = 1e3 * result.statistics.seconds_solve
         outcome, error, reason = _checked(case, model, scheme, result)
-    taken = (0, 0, 0)
+    taken, deepest = (0, 0, 0), np.nan
     if result is not None:
+        deepest = deepest_of(result)
         taken = len(result.log), result.statistics.newton_iterations, sum(row.cuts for row in result.log)
     words = _words(case, model, scheme)
     found = words, outcome, reason, *taken, error
-    return ContactRow(case.name, case.group, case.title, *found, case.answer.words, ms)
+    return ContactRow(case.name, case.group, case.title, *found, case.answer.words, ms, deepest)
 
 
 def _checked(case: HardContact, model: str, scheme: Scheme | None, result: Result) -> tuple[str, float, str]:

@@ -11,6 +11,8 @@ import numpy as np
 import dolfinrod as dr
 from tests.mutations import contact_measures as touching
 from tests.mutations import measures as by
+from tests.mutations import meeting_answers as answers
+from tests.mutations import meeting_measures as meeting
 from tests.mutations import motions as moving
 from tests.mutations import twist_measures as twisting
 from tests.mutations.contact_scenes import ROUGH
@@ -130,4 +132,28 @@ LAWS = {
     "winding with a hook": Law("is that without it, where none is inside", twisting.winds_with_a_hook, 1e-9),
     "Lk = Tw + Wr": Law("is a whole number, of any polygon", twisting.linked, 1e-10),
     "twist that leaves": Law("is that of the strand that moves on", twisting.leaves, 1e-9),
+    "third law of rods": Law(
+        "forces between them and their moments add up to nothing", partial(meeting.third_law, None), 1e-12
+    ),
+    "third law of rough rods": Law("the same with couples of friction", partial(meeting.third_law, meeting.MU), 1e-12),
+    "order of rods": Law("forces do not depend on which is named first", meeting.exchanged, 1e-12),
+    "rods side by side": Law("press by ε δ along all of their length", meeting.side_by_side, 1e-9),
+    "crossing rods": Law("press by ε ∫ (D₀ − D) d/D ds, wherever their nodes are", meeting.crossing, 1e-4),
+    "a rod on itself": Law("touches where it is a hairpin, not where it is straight", meeting.loop, 0.0),
+    "a rod from afar": Law("is felt where it comes to", meeting.comes, 1e-9),
+    "held by a rod": Law("t = ε_T u, then μ p, against the way", meeting.holds, 1e-9),
+    "gears": Law("rods that roll on each other do not rub", meeting.rolls, 1e-9),
+    "turned together": Law("what sticks turns with the rods", meeting.turned_along, 1e-3),
+    "landed on a rod": Law("t = ε_T times the way in touch", meeting.lands, 1e-9),
+    "slopes of rods": Law("are those of forces, side by side", partial(meeting.slopes, 0.0, None, 1.0), 1e-8),
+    "slopes of crossing rods": Law("the same across", partial(meeting.slopes, 1.0, None, 1.0), 1e-6),
+    "slopes of rough rods": Law(
+        "the same of forces and couples of what slides", partial(meeting.slopes, 0.0, meeting.MU, 0.5), 1e-8
+    ),
+    "work between rods": Law("of a mean load is what is stored, ½ ε δ² L", meeting.work, 1e-9),
+    "remembered by rods": Law("a contact gone on with acts as if it had not been left", meeting.goes_on, 1e-12),
+    "shots through rods": Law("are told from those that pass an end", meeting.passes, 0.0),
+    "stacked": Law("what lies on a rod weighs on it, and on the floor", answers.weighs, 1e-9),
+    "turned on a rod": Law("t = ε_T a θ, however many steps ago it was turned", answers.twists, 5e-3),
+    "few iterations of crossed rods": Law("a fifth more load at once: at most 6", answers.iterations, 6),
 }

@@ -27,6 +27,9 @@ ASKED = (
     "gap from the centreline",
     "missing friction moment",
     "unsigned crossing",
+    "force on one rod only",
+    "missing lever arm",
+    "wrong segment parameter",
 )
 
 

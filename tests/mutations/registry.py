@@ -7,6 +7,7 @@ from tests.mutations import (
     continuum_mutations,
     discrete_mutations,
     form_mutations,
+    meeting_mutations,
     motion_mutations,
     twist_mutations,
 )
@@ -20,6 +21,7 @@ MUTATIONS = (
     *motion_mutations.MUTATIONS,
     *contact_mutations.MUTATIONS,
     *twist_mutations.MUTATIONS,
+    *meeting_mutations.MUTATIONS,
 )
 
 

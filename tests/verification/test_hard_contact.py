@@ -12,7 +12,7 @@ from dolfinrod.scene import Section, Static
 from verification.answers import Exact
 from verification.contacts.groove import CASES as GROOVE_CASES
 from verification.contacts.groove import FEED, HALF_WIDTH, LENGTH, fibre, lateral
-from verification.contactwork import GROOVE, HARD, HARD_CONTACT, units
+from verification.contactwork import GROOVE, HARD, HARD_CONTACT, WALLS, units
 from verification.groovebench import LIMIT, GroovePoint, GrooveSweep, Setup, sweep
 from verification.grooveprofile import AGREES, GrooveProfile, SideBySide
 from verification.hardcontact import MOST_ITERATIONS, ContactRow, hard_contact, pairs
@@ -149,7 +149,7 @@ def test_a_full_run_of_the_groove_has_both_models_over_everything():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", HARD, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", WALLS, ids=lambda case: case.name)
 def test_every_hard_contact(case):
     rows = [hard_contact(case, *pair) for pair in pairs(case)]
     assert [(row.solver, row.outcome, row.a_step, row.reason) for row in rows if not row.holds] == []

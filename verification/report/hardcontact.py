@@ -19,7 +19,8 @@ TITLE = "Hard cases of contact"
 WORDS = (
     "Contacts that solvers stumble over, default settings, nothing tuned: every end is held against a closed form, the "
     "other model on twice the elements, or another way through the loads. Elsewhere: another equilibrium, which the "
-    "solver itself calls unstable. Missed is another end without that warning, a motion "
+    "solver itself calls unstable. Deepest: how far rods came into one another at stored times, over the sum of their "
+    "radii. Missed is another end without that warning, a motion "
     f"whose steps mostly fail, a refusal without a reason, and more than {MOST_ITERATIONS:g} Newton iterations a step "
     "on average, those of failed attempts included."
 )
@@ -36,6 +37,7 @@ def hard_contacts(found: Sequence[ContactRow]) -> str:
         Column("iterations", "a step", NUMBER),
         Column("cuts", kind=NUMBER),
         Column("error", kind=NUMBER),
+        Column("deepest", "radii", NUMBER),
         Column("against, or why not", kind=PROSE),
         Column("all steps", "ms", NUMBER),
     )
@@ -58,7 +60,8 @@ def _row(r: ContactRow, title: str) -> Row:
     )
     taken = f"{r.a_step:.1f}" if r.steps else "–"
     error, words = scientific(r.error), r.reason or r.answer
-    return title, r.solver, mark, count(r.steps), taken, count(r.cuts), error, words, ms(r.ms)
+    deepest = f"{r.deepest:.2g}" if r.deepest == r.deepest else "–"
+    return title, r.solver, mark, count(r.steps), taken, count(r.cuts), error, deepest, words, ms(r.ms)
 
 
 def verdict_on_contacts(found: Sequence[ContactRow]) -> str:

@@ -1,0 +1,122 @@
+"""Rods on rods that solvers stumble over: ended where an independent answer says, or known to miss it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from dolfinrod.scene import ImplicitEuler, Midpoint, Penalty, Velocity
+from verification.answers import Exact
+from verification.contactaudit import deepest_of
+from verification.contactwork import HARD_CONTACT, RODS, units
+from verification.hardcases.rodcontacts import thick
+from verification.hardcases.rodshots import HARD, momentum, stays
+from verification.hardcontact import hard_contact, pairs
+from verification.references.shots import Lens
+from verification.report.hardcontact import hard_contacts
+
+pytestmark = pytest.mark.serial
+
+BY_NAME = {case.name: case for case in RODS}
+MODELS = ("discrete", "continuum")
+SCHEMES = [("discrete", ImplicitEuler()), ("continuum", ImplicitEuler()), ("continuum", Midpoint())]
+UPWARDS = np.array([0.0, 0.0, 1.0])
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("name", ["crossed-1e6", "on-end", "heap"])
+def test_whatever_presses_from_above_is_handed_down(name, model):
+    row = hard_contact(BY_NAME[name], model, None)
+    assert (row.outcome, row.holds) == ("converged", True)
+    assert row.error <= 1e-9
+    assert 0.0 < row.deepest < 0.5
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("name", ["drawn-0.3-3"])
+def test_friction_between_rods_is_that_of_a_closed_form(name, model):
+    row = hard_contact(BY_NAME[name], model, None)
+    assert (row.outcome, row.holds) == ("converged", True)
+
+
+@pytest.mark.parametrize(("model", "scheme"), SCHEMES)
+def test_an_arrow_does_not_pass(model, scheme):
+    row = hard_contact(BY_NAME["end-on"], model, scheme)
+    assert (row.outcome, row.holds) == ("converged", True)
+
+
+def test_a_crossing_is_as_deep_as_its_lens_says():
+    """Of straight rods that cross at right angles; this one crosses at 1.2 rad, over 1/sin of that length."""
+    lens, h = Lens(1e6, 2e-5), 1e-9
+
+    def pushes(δ: float) -> float:
+        d = lens.reach - δ
+        return (lens.energy(d - h) - lens.energy(d + h)) / (2.0 * h)
+
+    row = hard_contact(BY_NAME["crossed-1e6"], "continuum", None)
+    δ = brentq(lambda δ: pushes(δ) - 2e-8 * np.sin(1.2), 2.0 * h, 1e-6)
+    assert row.deepest == pytest.approx(δ / lens.reach, rel=0.05)
+
+
+def test_a_rod_on_the_wrong_side_and_lost_momentum_are_seen():
+    """Where rods may pass each other, as they do without contact, that is told."""
+    import discrete
+
+    scene = BY_NAME["oblique-0"].scene()
+    ghosts = discrete.solve(replace(scene, contacts=[]), elements=4)
+    assert not stays(ghosts, 0, 1, UPWARDS)
+    assert stays(ghosts, 1, 0, -UPWARDS) is False
+    p = momentum(ghosts)
+    rod = scene.rods[0]
+    (flight,) = scene.velocities
+    assert isinstance(flight, Velocity)
+    np.testing.assert_allclose(p[0], rod.section.rhoA * rod.length * np.asarray(flight.v), rtol=1e-12)
+    assert np.isnan(deepest_of(ghosts))
+
+
+def test_a_section_ten_times_as_thick_is_that_of_a_circle():
+    thin, wide = thick(1.0), thick(10.0)
+    assert wide.radius == pytest.approx(10.0 * thin.radius)
+    assert np.asarray(wide.EI) / wide.EA == pytest.approx(100.0 * np.asarray(thin.EI) / thin.EA)
+    assert np.asarray(wide.rhoI) / wide.rhoA == pytest.approx(100.0 * np.asarray(thin.rhoI) / thin.rhoA)
+
+
+def test_names_and_groups():
+    assert len(BY_NAME) == len(RODS)
+    assert all(case.group.startswith("rods: ") for case in RODS)
+    assert isinstance(HARD, Penalty)
+    chosen = {str(unit.parameters[0]) for unit in units((HARD_CONTACT,), quick=True)} & set(BY_NAME)
+    assert {BY_NAME[name].group for name in chosen} == {case.group for case in RODS}
+
+
+def test_the_table_says_how_deep_rods_were():
+    row = hard_contact(replace(BY_NAME["along-2"], answer=Exact("nowhere", lambda _: 1.0)), "discrete", None)
+    text = hard_contacts((row, replace(row, deepest=np.nan)))
+    HTMLParser().feed(text)
+    assert (row.outcome, row.holds) == ("WRONG", False)
+    assert f"{row.deepest:.2g}" in text
+    assert "nan" not in text
+
+
+# Backward Euler takes a rod from one side of a contact to the other in a step of a diameter: where a contact is only
+# grazed centrelines never meet, so that no step is found too long, and the energy of the contact comes from nowhere.
+OPEN = {
+    ("grazing", "continuum", ImplicitEuler()),
+    ("over-an-end", "discrete", ImplicitEuler()),
+    ("over-an-end", "continuum", ImplicitEuler()),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", RODS, ids=lambda case: case.name)
+def test_no_rod_passes_another_and_nothing_is_wrong_but_what_is_known(case):
+    """Another end, energy made, or no end at all; a row that is mended has to be taken off the list."""
+    rows = {(case.name, *pair): hard_contact(case, *pair) for pair in pairs(case)}
+    wrong = {key for key, row in rows.items() if row.outcome not in ("converged", "elsewhere", "refused")}
+    assert wrong == {key for key in OPEN if key[0] == case.name}, [(key, rows[key].reason) for key in wrong]
+    assert all(row.reason for row in rows.values() if row.outcome != "converged")
+    assert all(row.error < np.inf for row in rows.values() if row.outcome == "converged")
