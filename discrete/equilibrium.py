@@ -189,9 +189,9 @@ class Equilibrium:
             return _Step(state, turn, turn, residual, worked_in)
         scale = max(1.0, float(np.abs(new.F_n).max()))
         change = max(turn, float(np.abs(d[:, X]).max()), float(np.abs(new.F_n - state.F_n).max()) / scale)
-        if grip is not None and grip.overshoots(change):
-            (half, _, bite), d = self._moved(state, 0.5 * d, 0.5 * spin, N, goal), 0.5 * d
-            new = replace(half, F_n=0.5 * (state.F_n + new.F_n))
+        if grip is not None and (part := grip.part(change, d)) < 1.0:
+            (short, _, bite), d = self._moved(state, part * d, part * spin, N, goal), part * d
+            new = replace(short, F_n=state.F_n + part * (new.F_n - state.F_n))
         watch.see(bite * d[:, SPIN], new.R)
         if grip is not None and change < grip.fine < ROUGH:
             change = max(change, grip.surprise(d, new) / scale)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.rounds import Rounds
+from discrete.unknowns import X
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -74,9 +75,16 @@ class Grip:
         self.touched = self._contacts.blocks()
         return self._force
 
-    def overshoots(self, change: float) -> bool:
-        """Whether an increment of this size leads round in a circle: half of it may not."""
-        return self._rounds.overshoots(self._contacts.sets, change)
+    def part(self, change: float, d: Array) -> float:
+        """Part of increments to be taken: half of those that lead round in a circle, no leap of rods past each other.
+
+        Args:
+            change: Their size.
+            d: Of all nodes, shape (n_nodes, 7).
+        """
+        half = 0.5 if self._rounds.overshoots(self._contacts.sets, change) else 1.0
+        way = float(np.sqrt(np.einsum("ni,ni->n", d[:, X], d[:, X]).max()))
+        return min(half, self._contacts.stride / way) if way > 0.0 else half
 
     @property
     def lost(self) -> bool:

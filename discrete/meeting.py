@@ -147,6 +147,14 @@ class Encounters:
         return self._links
 
     @property
+    def stride(self) -> float:
+        """How far rods may go in an iteration once they touch: where contact has just begun, a full one is a leap.
+
+        Half of the least radius leaves normals what they are; a diameter leads past the rod that was touched.
+        """
+        return 0.5 * float(np.nanmin(self._radius)) / self._units.length if self.met else np.inf
+
+    @property
     def pattern(self) -> bytes:
         """What touched, stuck and slid in the last answer."""
         return b"".join(meeting.pattern for meeting in self._meetings)

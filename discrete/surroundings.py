@@ -93,6 +93,11 @@ class Surroundings:
         return self.walls is not None and self.walls.renews
 
     @property
+    def stride(self) -> float:
+        """How far rods that touch one another may go in an iteration, in units of the model."""
+        return np.inf if self.others is None else self.others.stride
+
+    @property
     def sets(self) -> bytes:
         """What touches, sticks and slides, surfaces and rods."""
         return self.pattern + (b"" if self.others is None else self.others.pattern)

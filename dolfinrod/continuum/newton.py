@@ -19,6 +19,7 @@ import numpy as np
 
 from dolfinrod.continuum.coupled import linear_solver
 from dolfinrod.continuum.direct import LIBRARY_ERROR
+from dolfinrod.continuum.leap import part_taken
 from dolfinrod.continuum.pressed import DIRECT, ROUGH, pressed, renewed
 from dolfinrod.continuum.watch import Unwatched, Watch
 
@@ -186,6 +187,7 @@ class Newton:
     def _limit(self, X: PETSc.Vec, Y: PETSc.Vec) -> bool:
         """Replace the Newton step Y (x − Y is next) by one that stays on the manifold and turns at most so far."""
         kin, x, y = self.problem.kinematics, X.array_r, Y.array
+        y *= part_taken(self.problem, y[self._r])
         q = x[self._q]
         increment = kin.increment(q, -y[self._q])
         sizes = np.abs(y), np.abs(x)

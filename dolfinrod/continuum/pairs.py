@@ -46,6 +46,7 @@ class Pairs:
     Attributes:
         links: Tangent at the last call of `blocks`.
         everywhere: The nodes of all rods.
+        met: Whether any rods pushed each other in the last answer.
         r: Centreline dofs of this rank's own nodes, shape (n, d).
         q: Their rotation dofs, shape (n, n_q).
     """
@@ -100,7 +101,7 @@ class Pairs:
         felt = [meeting.respond(now[:, :3], turn) for meeting in self._meetings]
         force = self.everywhere.summed(np.sum([one.force for one in felt], axis=0))
         moment = np.sum([one.moment for one in felt], axis=0)
-        self._force = force[self.everywhere.own]
+        self._force, self.met = force[self.everywhere.own], bool(force.any())
         self._moment = (self.everywhere.summed(moment) if self.turns else moment)[self.everywhere.own]
         self._seen = now
 
@@ -190,7 +191,6 @@ class Pairs:
         for meeting in self._meetings:
             meeting.soften(by)
 
-    # No law of rods has multipliers.
     renews = False
 
     def glide(self) -> None:
