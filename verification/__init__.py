@@ -20,6 +20,7 @@
 `hardcase`      what solvers stumble over, with a check; `hardcases`, such scenes; `hard`, how they end
 `meetings`      rods on rods with known answers, taken as contact cases are; `meetingtrials`, as units
 `rigid`         rigid tops through each rotation integrator; `rigidbodies`, both of them; `toptrials`, as units
+`bundles`       what more and more fibres cost, each bundle by `bundlerun`; `bundletrials`, as units
 `robustness`    largest load in one step; fewest steps of `benchmarks`
 `checks`        errors, orders and digits that must hold
 `shape`         what is drawn

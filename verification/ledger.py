@@ -20,6 +20,7 @@ from typing import Any, get_args
 
 import numpy as np
 
+from verification.bundles import BundleCost, BundleRanks, BundleStudy
 from verification.checks import Check
 from verification.contact import ContactRecord, ContactStudy
 from verification.contactmaps import ContactCell
@@ -51,12 +52,13 @@ from verification.workprecision import Record, Study, Timing
 __all__ = ["Ledger", "Unit", "source_hash"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
-Moved = DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | TopStudy
+Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
 Other = Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study | TwistStudy
 Row = Trial | Moved | Touched | Other
 PARTS = (
     Attempt,
+    BundleCost,
     ContactRecord,
     GroovePoint,
     GrooveProfile,
@@ -82,7 +84,8 @@ class Unit:
     Args:
         topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
             "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
-            "frequency", "drift", "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map",
+            "frequency", "drift", "bundle",
+            "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map",
             "hard contact", "meeting" or "twist".
         words: What is solved, for people.
         parameters: What sets it apart from others of its topic; strings and numbers.

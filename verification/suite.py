@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from verification.bundles import BundleRanks, BundleStudy
 from verification.cases import CASES
 from verification.checks import Check, digit_checks, order_checks
 from verification.contact import ContactStudy
@@ -44,7 +45,7 @@ if TYPE_CHECKING:
 __all__ = ["Missed", "Report", "report", "work_off"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
-Moved = DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | TopStudy
+Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
 Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow | TwistStudy
 # Fields of the report that are the rows of a topic, as they come.
@@ -60,6 +61,7 @@ AS_FOUND = {
     "limits": "explicit limit",
     "maps": "map",
     "motions": "hard motion",
+    "bundles": "bundle",
     "tops": "rigid",
     "touching": "contact",
     "grooves": "groove",
@@ -102,6 +104,7 @@ class Report:
         drifts: What a free rod keeps.
         fibres: The paper's fibre in its own steps.
         paces: Milliseconds a step.
+        bundles: What more and more fibres cost, and on one rank and on two.
         tops: Rigid bodies by each rotation integrator.
         touching: Rods on rigid surfaces on finer and finer levels.
         grooves: The fibre in the groove over steps, elements and penalty.
@@ -139,6 +142,7 @@ class Report:
     drifts: tuple[DriftStudy, ...] = ()
     fibres: tuple[PaperFibre, ...] = ()
     paces: tuple[Pace, ...] = ()
+    bundles: tuple[BundleStudy | BundleRanks, ...] = ()
     contenders: tuple[Contender, ...] = ()
     tops: tuple[TopStudy, ...] = ()
     touching: tuple[ContactStudy, ...] = ()
@@ -167,7 +171,7 @@ class Report:
         for rows in (*kinds, self.hard, self.shares, self.largest, self.limits, self.maps, self.motions):
             missed += [row for row in rows if not row.holds]
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
-        missed += [row for row in moved if not row.holds]
+        missed += [row for row in (*moved, *self.bundles) if not row.holds]
         touched: tuple[Touched, ...] = (*self.touching, *self.grooves, *self.beside, *self.contact_maps)
         missed += [row for row in (*touched, *self.hard_contacts, *self.meetings, *self.twists) if not row.holds]
         missed += [row for row in self.fewest if row.missed]

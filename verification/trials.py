@@ -7,6 +7,7 @@ from functools import partial
 from importlib import import_module
 
 from verification import (
+    bundletrials,
     contacttrials,
     contactwork,
     eigencases,
@@ -42,6 +43,7 @@ def names() -> tuple[str, ...]:
         *(hard_name(case) for case in hardcases.CASES),
         *stepping.names(),
         *motiontrials.names(),
+        *bundletrials.names(),
         *toptrials.names(),
         *contacttrials.names(),
         *contactwork.names(),
@@ -84,6 +86,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
             yield name, words
     yield from stepping.listing(asked)
     yield from motiontrials.listing(asked)
+    yield from bundletrials.listing(asked)
     yield from toptrials.listing(asked)
     yield from contacttrials.listing(asked)
     yield from contactwork.listing(asked)
@@ -114,6 +117,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
             yield Unit("fewest", words, (benchmark.case.name, model.name), work)
     yield from stepping.units(asked, quick=quick)
     yield from motiontrials.units(asked, quick=quick)
+    yield from bundletrials.units(asked, quick=quick)
     yield from toptrials.units(asked, quick=quick)
     yield from contacttrials.units(asked, quick=quick)
     yield from contactwork.units(asked, quick=quick)

@@ -140,3 +140,13 @@ def test_a_shot_over_a_diameter_a_step_hits():
     i, j = np.unravel_index(seen.argmin(), seen.shape)
     assert above[j, 2] - below[i, 2] > RADIUS
     assert result.rods[1].v[-1, :, 2].mean() > 0.0
+
+
+def test_rods_are_moved_alike_by_iteration_and_by_factors_of_all(monkeypatch):
+    """Where the iteration gives up at once, all rods together are factorised: the same motion."""
+    scene = bundle(dr.ImplicitEuler(), ROUGH, steps=8)
+    iterated = dr.solve(scene, **MESH)
+    monkeypatch.setattr("dolfinrod.continuum.coupled.MOST", 1)
+    factorised = dr.solve(scene, **MESH)
+    assert max(iterated.meetings[0].total(i) for i in range(len(iterated.t))) > 1.0
+    assert_same(iterated, factorised, 1e-9)

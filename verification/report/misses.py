@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import singledispatch
 from typing import Any
 
+from verification.bundles import BundleRanks, BundleStudy
 from verification.checks import Check
 from verification.contact import ContactStudy
 from verification.contactmaps import ContactCell
@@ -169,6 +170,11 @@ def _(row: DriftStudy) -> str:
     changes = f"linear momentum by {scientific(max(row.linear))}, angular by {scientific(max(row.angular))}"
     energy = f"energy with order {power(row.order.observed)} of {row.order.theory}"
     return f"Free flight: {row.model} changes {changes}, {energy}; momenta at most {scientific(KEPT, 0)}"
+
+
+@sentence.register
+def _(row: BundleStudy | BundleRanks) -> str:
+    return row.words
 
 
 @sentence.register
