@@ -18,7 +18,7 @@ __all__ = ["GROOVE", "HARD", "HARD_CONTACT", "MAPS", "RODS", "WALLS", "listing",
 # Chosen like families; a single hard contact as "hard-contact:NAME".
 GROOVE, MAPS, HARD_CONTACT = "groove", "contact-maps", "hard-contact"
 WALLS = (*contacts.CASES, *contactways.CASES, *contactmotions.CASES)
-RODS = (*rodcontacts.CASES, *rodways.CASES, *rodshots.CASES)
+RODS = (*rodways.CASES, *rodcontacts.CASES, *rodshots.CASES)
 HARD = (*WALLS, *RODS)
 # A quick run: every so many cells of one mesh, and two walls.
 QUICK_MESH, QUICK_WALLS, QUICK_STEPS = 5, STIFFNESSES[1:3], STEPS[1::2]

@@ -31,6 +31,8 @@ HARD = Penalty(1e8)
 MESH = {"elements": 6, "discrete": 12}
 # Nodes of a cubic element have these parts of its mass.
 LOBATTO = np.array([1.0, 5.0, 5.0, 1.0]) / 12.0
+# Steps in which a rod would go through another are cut on purpose: what that costs is shown, not judged.
+CUT = float("inf")
 # Error of implicit Euler where a contact is passed in hundreds of steps.
 COARSE = 2e-2
 
@@ -113,7 +115,7 @@ def shot(diameters: float, seed: int, mu: float | None = None) -> HardContact:
 
     title = f"Shot over {diameters:g} diameters a step at {np.degrees(angle):.0f}°, μ = {mu or 0.0:g}"
     answer = kept([(0, 1)], along)
-    return HardContact(f"shot-{diameters:g}-{seed}", "rods: shots", title, scene, answer, limit=LOSS, **MESH)
+    return HardContact(f"shot-{diameters:g}-{seed}", "rods: shots", title, scene, answer, limit=LOSS, most=CUT, **MESH)
 
 
 def placed(
@@ -237,9 +239,9 @@ def thrown(part: float) -> HardContact:
 
 
 CASES = (
-    grazing(),
     *(shot(k, seed) for k, seed in ((1.2, 1), (1.2, 2), (3.0, 3), (3.0, 4), (8.0, 5), (8.0, 6))),
     shot(3.0, 7, 0.64),
+    grazing(),
     end_on(),
     over_an_end(),
     both_sides(),
