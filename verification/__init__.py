@@ -18,7 +18,7 @@
 `eigencase`     a critical load or a frequency as a case; `eigencases`, a file a family; `eigenmodels`, who is asked
 `stability`     critical loads and frequencies against references, verdicts below and above
 `hardcase`      what solvers stumble over, with a check; `hardcases`, such scenes; `hard`, how they end
-`meetings`      rods on rods with known answers, taken as contact cases are; `meetingtrials`, as units
+`meetings`      rods on rods with known answers, taken as contact cases are
 `rigid`         rigid tops through each rotation integrator; `rigidbodies`, both of them; `toptrials`, as units
 `bundles`       what more and more fibres cost, each bundle by `bundlerun`; `bundletrials`, as units
 `robustness`    largest load in one step; fewest steps of `benchmarks`

@@ -1,63 +1,70 @@
-"""Contact cases as units of work."""
+"""Cases of contact as units of work."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import partial
 
+from verification import contacts, meetings
 from verification.contact import contactstudy
-from verification.contacts import CASES
+from verification.contactcase import ContactCase
 from verification.ledger import Unit
 
-__all__ = ["CONTACT", "listing", "names", "units"]
-
-# Chosen like a family; a single case as "contact:NAME", by its family as "contact:FAMILY".
-CONTACT = "contact"
+__all__ = ["CONTACT", "MEETINGS", "ContactTrials"]
 
 Key = tuple[str | int | float, ...]
 
 
-def names() -> tuple[str, ...]:
-    """Whatever may be asked for by name."""
-    return (CONTACT, *dict.fromkeys(asked_as(case.family) for case in CASES), *(asked_as(case.name) for case in CASES))
-
-
-def asked_as(name: str) -> str:
-    """Under which a case or a family is asked for."""
-    return f"{CONTACT}:{name.removeprefix(f'{CONTACT}-')}"
-
-
-def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """Name and title of what is asked for, members indented; others are passed over.
+@dataclass(frozen=True)
+class ContactTrials:
+    """Cases that are chosen like a family: one of them as "name:CASE", those of a family as "name:FAMILY".
 
     Args:
-        asked: Out of `names()`.
-
-    Yields:
-        One line.
+        name: Of them all.
+        words: What they are, for people.
+        topic: Of the report.
+        cases: In its order.
     """
-    chosen = [case for case in CASES if {CONTACT, asked_as(case.family), asked_as(case.name)} & set(asked)]
-    if chosen:
-        yield CONTACT, "rods on rigid surfaces, by both models"
-    for case in chosen:
-        yield f"  {asked_as(case.name)}", case.title
+
+    name: str
+    words: str
+    topic: str
+    cases: tuple[ContactCase, ...] = field(repr=False)
+
+    def names(self) -> tuple[str, ...]:
+        """Whatever may be asked for by name."""
+        families = (case.family for case in self.cases)
+        return (self.name, *dict.fromkeys(map(self.asked_as, (*families, *(case.name for case in self.cases)))))
+
+    def asked_as(self, name: str) -> str:
+        """Under which a case or a family is asked for."""
+        return f"{self.name}:{name.removeprefix(f'{self.name}-').replace(' ', '-')}"
+
+    def chosen(self, asked: tuple[str, ...]) -> tuple[ContactCase, ...]:
+        """Cases that names out of `names()` stand for; others are passed over."""
+        wanted = set(asked)
+        return tuple(
+            case for case in self.cases if {self.name, self.asked_as(case.family), self.asked_as(case.name)} & wanted
+        )
+
+    def listing(self, asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+        """Name and title of what is asked for, a line each, members indented."""
+        chosen = self.chosen(asked)
+        if chosen:
+            yield self.name, self.words
+        for case in chosen:
+            yield f"  {self.asked_as(case.name)}", case.title
+
+    def units(self, asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
+        """What is to be done, in the order of the report; of quick ones only the runs that are marked."""
+        for case in self.chosen(asked):
+            for run in case.runs:
+                if run.quick or not quick:
+                    words = f"{case.title}: {run.model}, {run.label}"
+                    key: Key = (case.name, run.model, run.label, *run.levels)
+                    yield Unit(self.topic, words, key, partial(contactstudy, case, run))
 
 
-def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
-    """What is to be done.
-
-    Args:
-        asked: Out of `names()`; others are passed over.
-        quick: Only the runs that are marked.
-
-    Yields:
-        Units in the order of the report.
-    """
-    for case in CASES:
-        if not {CONTACT, asked_as(case.family), asked_as(case.name)} & set(asked):
-            continue
-        for run in case.runs:
-            if run.quick or not quick:
-                words = f"{case.title}: {run.model}, {run.label}"
-                key: Key = (case.name, run.model, run.label, *run.levels)
-                yield Unit("contact", words, key, partial(contactstudy, case, run))
+CONTACT = ContactTrials("contact", "rods on rigid surfaces, by both models", "contact", contacts.CASES)
+MEETINGS = ContactTrials("meetings", "rods on rods, by both models", "meeting", meetings.CASES)

@@ -8,16 +8,15 @@ from importlib import import_module
 
 from verification import (
     bundletrials,
-    contacttrials,
     contactwork,
     eigencases,
     hardcases,
-    meetingtrials,
     motiontrials,
     stepping,
     toptrials,
     twisttrials,
 )
+from verification.contacttrials import CONTACT, MEETINGS
 from verification.eigencase import Eigencase
 from verification.hard import hard, pairs
 from verification.hardcase import HardCase, Refined
@@ -45,10 +44,10 @@ def names() -> tuple[str, ...]:
         *motiontrials.names(),
         *bundletrials.names(),
         *toptrials.names(),
-        *contacttrials.names(),
+        *CONTACT.names(),
         *contactwork.names(),
         *twisttrials.names(),
-        *meetingtrials.names(),
+        *MEETINGS.names(),
     )
 
 
@@ -88,10 +87,10 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from motiontrials.listing(asked)
     yield from bundletrials.listing(asked)
     yield from toptrials.listing(asked)
-    yield from contacttrials.listing(asked)
+    yield from CONTACT.listing(asked)
     yield from contactwork.listing(asked)
     yield from twisttrials.listing(asked)
-    yield from meetingtrials.listing(asked)
+    yield from MEETINGS.listing(asked)
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -119,10 +118,10 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from motiontrials.units(asked, quick=quick)
     yield from bundletrials.units(asked, quick=quick)
     yield from toptrials.units(asked, quick=quick)
-    yield from contacttrials.units(asked, quick=quick)
+    yield from CONTACT.units(asked, quick=quick)
     yield from contactwork.units(asked, quick=quick)
     yield from twisttrials.units(asked)
-    yield from meetingtrials.units(asked, quick=quick)
+    yield from MEETINGS.units(asked, quick=quick)
 
 
 def _critical(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:

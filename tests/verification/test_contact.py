@@ -9,7 +9,7 @@ import pytest
 
 from verification.contact import contactstudy
 from verification.contacts import NORMAL
-from verification.contacttrials import CONTACT, asked_as, listing, names, units
+from verification.contacttrials import CONTACT
 from verification.references.contact import edges, solved_anew, touching, value, wound_evenly
 from verification.references.contactposed import FALLS, POSED, WALLS, WOUND, quantities
 from verification.references.contactrod import ANGLE, M, Y
@@ -28,9 +28,9 @@ def study(name, model, words=""):
 
 def test_names_are_unique_and_listed():
     assert len(BY_NAME) == len(NORMAL)
-    assert len(set(names())) == len(names())
-    assert {"contact:normal", "contact:line-load"} <= set(names())
-    assert ("  contact:line-load", BY_NAME["contact-line-load"].title) in list(listing((CONTACT,)))
+    assert len(set(CONTACT.names())) == len(CONTACT.names())
+    assert {"contact:normal", "contact:line-load"} <= set(CONTACT.names())
+    assert ("  contact:line-load", BY_NAME["contact-line-load"].title) in list(CONTACT.listing((CONTACT.name,)))
 
 
 def test_every_case_is_taken_by_both_models():
@@ -41,13 +41,13 @@ def test_every_case_is_taken_by_both_models():
 
 def test_units_of_one_case_and_of_quick_runs():
     name = "contact-wall-beta10"
-    found = list(units((asked_as(name),), quick=False))
+    found = list(CONTACT.units((CONTACT.asked_as(name),), quick=False))
     assert len(found) == len(BY_NAME[name].runs)
     assert {unit.topic for unit in found} == {"contact"}
-    assert len({unit.parameters for unit in units((CONTACT,), quick=False)}) == len(
-        list(units((CONTACT,), quick=False))
+    assert len({unit.parameters for unit in CONTACT.units((CONTACT.name,), quick=False)}) == len(
+        list(CONTACT.units((CONTACT.name,), quick=False))
     )
-    assert 0 < len(list(units((asked_as(name),), quick=True))) < len(found)
+    assert 0 < len(list(CONTACT.units((CONTACT.asked_as(name),), quick=True))) < len(found)
 
 
 @pytest.mark.parametrize("model", ["continuum", "discrete"])

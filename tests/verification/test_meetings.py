@@ -9,10 +9,10 @@ import pytest
 
 from verification.contact import contactstudy
 from verification.contacts.runs import DISCRETE, SPACE
+from verification.contacttrials import MEETINGS
 from verification.meetings import CASES
 from verification.meetings.bundle import vee
 from verification.meetings.crossing import crossing
-from verification.meetingtrials import MEETINGS, asked_as, listing, names, units
 from verification.references.bundle import Vee
 from verification.references.meetings import meeting, solved_anew
 from verification.report.meetings import meeting_cases
@@ -27,9 +27,9 @@ MODELS = {"continuum": (SPACE, 5), "discrete": (DISCRETE, 21)}
 
 def test_names_are_unique_and_listed():
     assert len(BY_NAME) == len(CASES)
-    assert len(set(names())) == len(names())
-    assert {"meetings:crossing", "meetings:groove-bundle", "meetings:pile-v"} <= set(names())
-    assert ("  meetings:pile-v", BY_NAME["pile-v"].title) in list(listing((MEETINGS,)))
+    assert len(set(MEETINGS.names())) == len(MEETINGS.names())
+    assert {"meetings:crossing", "meetings:groove-bundle", "meetings:pile-v"} <= set(MEETINGS.names())
+    assert ("  meetings:pile-v", BY_NAME["pile-v"].title) in list(MEETINGS.listing((MEETINGS.name,)))
 
 
 def test_every_case_is_taken_by_both_models_within_limits():
@@ -39,11 +39,11 @@ def test_every_case_is_taken_by_both_models_within_limits():
 
 
 def test_units_are_told_apart_and_quick_ones_are_fewer():
-    every, quick = (list(units((MEETINGS,), quick=quick)) for quick in (False, True))
+    every, quick = (list(MEETINGS.units((MEETINGS.name,), quick=quick)) for quick in (False, True))
     assert len({unit.parameters for unit in every}) == len(every)
     assert 0 < len(quick) < len(every)
     assert {unit.topic for unit in every} == {"meeting"}
-    assert len(list(units((asked_as("pile-v"),), quick=False))) == len(BY_NAME["pile-v"].runs)
+    assert len(list(MEETINGS.units((MEETINGS.asked_as("pile-v"),), quick=False))) == len(BY_NAME["pile-v"].runs)
 
 
 @pytest.mark.parametrize("model", ["continuum", "discrete"])

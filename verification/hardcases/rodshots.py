@@ -100,10 +100,9 @@ def shot(diameters: float, seed: int, mu: float | None = None) -> HardContact:
     first, along = frame[0], frame[2]
     second = np.cos(angle) * first + np.sin(angle) * frame[1]
     slide = 0.3 * SPEED * (frame[0] * random.normal() + frame[1] * random.normal())
+    begin = -3.0 * THICK * along - aside[0] * LENGTH * first
     rods = [
-        Rod.straight(
-            LENGTH, FIBRE, start=tuple(-3.0 * THICK * along - aside[0] * LENGTH * first), direction=tuple(first)
-        ),
+        Rod.straight(LENGTH, FIBRE, start=tuple(begin), direction=tuple(first)),
         Rod.straight(LENGTH, FIBRE, start=tuple(-aside[1] * LENGTH * second), direction=tuple(second)),
     ]
 
@@ -234,8 +233,7 @@ def thrown(part: float) -> HardContact:
 
     title = f"Start 5 µm within one another, Δt = {part:g} √(ρA/2ε_N)"
     words = Exact("v = δ √(2ε_N/ρA)" if part < 1.0 else "v ≤ δ √(2ε_N/ρA)", off)
-    group = "rods: start in one another"
-    return HardContact(f"apart-{part:g}", group, title, scene, words, limit=COARSE, **MESH)
+    return HardContact(f"apart-{part:g}", "rods: start in one another", title, scene, words, limit=COARSE, **MESH)
 
 
 CASES = (
