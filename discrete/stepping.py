@@ -113,13 +113,14 @@ class Walk:
     def _attempt(self, t: float) -> Outcome:
         """Equilibrium from the extrapolated state if that is a good guess, else from the last one.
 
-        On an unstable path, where other equilibria are close by, only the extrapolated state tells which one leads on.
+        On an unstable path, where other equilibria are close by, only the extrapolated state tells which one leads on;
+        but of what comes to touch next it knows nothing.
         """
         guess = self._memory.ahead(t)
         if guess is not None:
             outcome = self._phase.find(guess.state, t, trust=guess.turned)
             self._path.iterations += outcome.iterations
-            if outcome.converged or self._stable is False:
+            if outcome.converged or (self._stable is False and self._phase.equilibrium.contacts is None):
                 return outcome
         outcome = self._phase.find(self._memory.state, t)
         self._path.iterations += outcome.iterations

@@ -17,6 +17,7 @@ __all__ = ["Findings", "advice"]
 COARSE = 1.0
 # What helps where contact comes and goes, or rods slip.
 SOFTER = "contact that is softer (a smaller eps_N) or begins smoothly (SmoothPenalty)"
+FIRMER = "a stiffer RodContact.law where rods are pressed through one another, a softer one where they are not"
 MASS = "a Dynamic motion, in which mass holds what slips"
 
 
@@ -76,7 +77,7 @@ def advice(scene: Scene, found: Findings) -> str:
             "leads to a stable branch"
         )
     steps = scene.motion.steps
-    touching = f"{SOFTER}, {MASS}, " if scene.contacts else ""
+    touching = f"{_touching(scene)}{MASS}, " if scene.contacts else ""
     return (
         f"The iteration did not settle. Try Static(steps={2 * steps if steps else 8}), {touching}more elements, or "
         "look at `.result` (what converged)"
@@ -86,5 +87,10 @@ def advice(scene: Scene, found: Findings) -> str:
 def _in_time(scene: Scene, dt: float | None) -> str:
     """What to try where a motion in time steps of dt went astray."""
     finer = "a smaller Dynamic(tol=…)" if dt is None else f"Dynamic(dt={dt / 2:g})"
-    softer = f"{SOFTER}, " if scene.contacts else ""
-    return f"Try {finer}, {softer}more elements, or look at `.result` (what converged) for what grows without bound"
+    return f"Try {finer}, {_touching(scene)}more elements, or look at `.result` (what converged) for what grows without bound"
+
+
+def _touching(scene: Scene) -> str:
+    """What to try where rods touch surfaces, and where they touch one another."""
+    softer = f"{SOFTER}, " if scene.walls else ""
+    return softer + (f"{FIRMER}, " if scene.meetings else "")
