@@ -87,7 +87,8 @@ def advice(scene: Scene, found: Findings) -> str:
 def _in_time(scene: Scene, dt: float | None) -> str:
     """What to try where a motion in time steps of dt went astray."""
     finer = "a smaller Dynamic(tol=…)" if dt is None else f"Dynamic(dt={dt / 2:g})"
-    return f"Try {finer}, {_touching(scene)}more elements, or look at `.result` (what converged) for what grows without bound"
+    looked_at = "look at `.result` (what converged) for what grows without bound"
+    return f"Try {finer}, {_touching(scene)}more elements, or {looked_at}"
 
 
 def _touching(scene: Scene) -> str:
