@@ -275,6 +275,7 @@ def errors_in(folder):
     return [(study["model"], [record["error"] for record in study["records"]]) for study in studies]
 
 
+@pytest.mark.serial
 def test_verify_lists_names_and_solves_nothing(dolfinrod, tmp_path):
     done = dolfinrod("verify", "--list", "roll*", "--out", tmp_path / "out")
     assert done.code == 0
