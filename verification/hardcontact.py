@@ -41,7 +41,6 @@ class HardContact:
         elements: Of the continuum model, cubic.
         discrete: Elements of the discrete model.
         limit: Error beyond which the end is another one.
-        most: Iterations a step that it may take.
     """
 
     name: str
@@ -52,7 +51,6 @@ class HardContact:
     elements: int = 16
     discrete: int = 40
     limit: float = 1e-3
-    most: float = MOST_ITERATIONS
 
 
 @dataclass(frozen=True)
@@ -75,7 +73,6 @@ class ContactRow:
         answer: What it is measured against.
         ms: Of all steps [ms].
         deepest: How far rods came into one another at most, over their radii; NaN where none touched another.
-        most: Iterations a step that it may take.
     """
 
     case: str
@@ -91,7 +88,6 @@ class ContactRow:
     answer: str
     ms: float
     deepest: float = np.nan
-    most: float = MOST_ITERATIONS
 
     @property
     def a_step(self) -> float:
@@ -102,7 +98,7 @@ class ContactRow:
     def holds(self) -> bool:
         """The end sought with few iterations, another one with a warning, or a refusal in words."""
         if self.outcome == "converged":
-            return self.a_step <= self.most
+            return self.a_step <= MOST_ITERATIONS
         return self.outcome in ("elsewhere", "refused") and bool(self.reason)
 
 
@@ -148,7 +144,7 @@ def hard_contact(case: HardContact, model: str, scheme: Scheme | None) -> Contac
         taken = len(result.log), result.statistics.newton_iterations, sum(row.cuts for row in result.log)
     words = _words(case, model, scheme)
     found = words, outcome, reason, *taken, error
-    return ContactRow(case.name, case.group, case.title, *found, case.answer.words, ms, deepest, case.most)
+    return ContactRow(case.name, case.group, case.title, *found, case.answer.words, ms, deepest)
 
 
 def _checked(case: HardContact, model: str, scheme: Scheme | None, result: Result) -> tuple[str, float, str]:

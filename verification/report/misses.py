@@ -16,7 +16,7 @@ from verification.frequency import FrequencyStudy
 from verification.groovebench import LIMIT, GrooveSweep
 from verification.grooveprofile import AGREES, SideBySide
 from verification.hard import HardRow, Share
-from verification.hardcontact import ContactRow
+from verification.hardcontact import MOST_ITERATIONS, ContactRow
 from verification.hardmotion import MotionRow
 from verification.laws import LawRow
 from verification.maps import Cell
@@ -202,7 +202,7 @@ def _(row: ContactCell) -> str:
 @sentence.register
 def _(row: ContactRow) -> str:
     if row.outcome == "converged":
-        return f"{row.title}: {row.solver} took {row.a_step:.1f} iterations a step, at most {row.most:g}"
+        return f"{row.title}: {row.solver} took {row.a_step:.1f} iterations a step, at most {MOST_ITERATIONS:g}"
     return f"{row.title}: {row.solver} {row.outcome.lower()}, {row.reason}"
 
 
