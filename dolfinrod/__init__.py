@@ -9,6 +9,7 @@
 Importing this package loads neither DOLFINx nor PETSc; `solve` does.
 """
 
+from dolfinrod import groove
 from dolfinrod.eigen import Buckling, Modes, RodShapes
 from dolfinrod.result import (
     ContactHistory,
@@ -104,6 +105,7 @@ __all__ = [
     "WallMotion",
     "buckling",
     "critical",
+    "groove",
     "modes",
     "solve",
 ]

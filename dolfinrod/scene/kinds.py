@@ -153,7 +153,7 @@ CONTACT = Kind(
         ),
         "friction": Choice(
             {
-                "coulomb": Kind(Coulomb, {"mu": Plain(), "eps_T": STIFFNESS}),
+                "coulomb": Kind(Coulomb, {"mu": Plain(), "eps_T": STIFFNESS, "at": Plain()}),
                 "creeping_coulomb": Kind(CreepingCoulomb, {"mu": Plain(), "v_0": Quantity("m/s")}),
             }
         ),
