@@ -9,7 +9,7 @@
 Importing this package loads neither DOLFINx nor PETSc; `solve` does.
 """
 
-from dolfinrod import twist
+from dolfinrod import groove, twist
 from dolfinrod.eigen import Buckling, Modes, RodShapes
 from dolfinrod.result import (
     ContactHistory,
@@ -113,6 +113,7 @@ __all__ = [
     "WallMotion",
     "buckling",
     "critical",
+    "groove",
     "modes",
     "solve",
     "twist",

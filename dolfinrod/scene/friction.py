@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
+from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import assign, nonnegative, positive
 
 __all__ = ["Coulomb", "CreepingCoulomb", "Friction"]
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -19,17 +26,26 @@ class Coulomb:
     Args:
         mu: Coefficient of friction μ.
         eps_T: Stiffness of the anchors ε_T [N/m²]; None: that of the contact's law against penetration.
+        at: Where it acts on a rod: at its "surface", where it turns the rod and a rod that rolls does not rub, or at
+            its "centreline", a force without a moment, as where a model knows no surface of a rod.
 
     Raises:
-        SceneError: A negative coefficient, a stiffness that is not positive.
+        SceneError: A negative coefficient, a stiffness that is not positive, an unknown place.
     """
 
     mu: float
     eps_T: float | None = None
+    at: Literal["surface", "centreline"] = "surface"
 
     def __post_init__(self) -> None:
+        if not isinstance(self.at, str) or self.at not in ("surface", "centreline"):
+            raise SceneError(f'must be "surface" or "centreline", got {quoted(self.at)}', field="Coulomb.at")
         eps_T = None if self.eps_T is None else positive(self.eps_T, "Coulomb.eps_T", "N/m²")
         assign(self, mu=nonnegative(self.mu, "Coulomb.mu"), eps_T=eps_T)
+
+    def arm(self, distance: Array) -> Array:
+        """Lever arm of the traction about centrelines at a distance from where rods touch, shape (n,) [m]."""
+        return distance if self.at == "surface" else np.zeros_like(distance)
 
 
 @dataclass(frozen=True)

@@ -144,7 +144,7 @@ PENALTIES = {
     "smooth_penalty": Kind(SmoothPenalty, {"eps_N": STIFFNESS, "foot": METRE, "g_0": METRE}),
 }
 LAWS = {"paper": Penalty.paper, "tight": Penalty.tight}
-DRY = {"coulomb": Kind(Coulomb, {"mu": Plain(), "eps_T": STIFFNESS})}
+DRY = {"coulomb": Kind(Coulomb, {"mu": Plain(), "eps_T": STIFFNESS, "at": Plain()})}
 CONTACT = Kind(
     Contact,
     {

@@ -28,7 +28,7 @@ class Pressed:
         p_X: ∂p/∂X, shape (n, 3).
         n: Normals, shape (n, 3).
         n_X: ∂n/∂X, shape (n, 3, 3).
-        radius: Of the rods, shape (n,) [m].
+        radius: Lever arm of the traction: that of the rods, or none, shape (n,) [m].
         expected: Line load under which the normals turn, p but for an iterate, shape (n,) [N/m].
     """
 

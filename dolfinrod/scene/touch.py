@@ -47,8 +47,9 @@ class Touch:
         anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
         self._stiffness = contact.law.eps_N if anchors is None else anchors
         self._ε_T = self._stiffness
+        self._arm = self._friction.arm(radius) if isinstance(self._friction, Coulomb) else np.zeros_like(radius)
         self.changed = self.forced = False
-        self.turns = isinstance(self._friction, Coulomb)
+        self.turns = bool(self._arm.any())
 
     def place(self, x: Array, t: float) -> None:
         """The rods are at x; nothing is remembered."""
@@ -125,7 +126,7 @@ class Touch:
         p_X, on = slope[:, None] * at_end, np.flatnonzero(touch)
         self._pressing.led(X, p, p_X, touch)
         pressed = Pressed(
-            p[on], p_X[on], closest.normal[on], self._level * closest.curvature[on], self._radius[on], expected[on]
+            p[on], p_X[on], closest.normal[on], self._level * closest.curvature[on], self._arm[on], expected[on]
         )
         share, none = np.ones(len(on)), np.zeros((len(on), 3))
         if not isinstance(self._friction, Coulomb) or not len(on):

@@ -1,0 +1,60 @@
+"""Fibre bundles in the pneumatic groove of compact spinning: lateral against intermediate, and the additional twist.
+
+    import dolfinrod as dr
+
+    scenario = dr.groove.Scenario("lateral", fibres=5, seed=1)
+    result = scenario.run("discrete")
+    dr.groove.measure(result, scenario).T_pair
+
+The paper gives the fibre, one angle and little else; what else a bundle in a groove needs is a named parameter with an
+assumed value, marked [I] where it is described.
+"""
+
+from dolfinrod.groove.air import LineSink
+from dolfinrod.groove.bundle import Bundle
+from dolfinrod.groove.comparison import Comparison, Measured, Verdict, compare, measured, verdict
+from dolfinrod.groove.core import FixedCore, RollingCore
+from dolfinrod.groove.course import Course, course
+from dolfinrod.groove.ends import Ends
+from dolfinrod.groove.ensemble import Ensemble, Progress, ensemble
+from dolfinrod.groove.measures import Along, Measures, measure
+from dolfinrod.groove.runs import Folder, Run
+from dolfinrod.groove.scenario import Scenario
+from dolfinrod.groove.sections import CrossSection
+from dolfinrod.groove.statistics import Interval, Test
+from dolfinrod.groove.table1 import INTERMEDIATE, LATERAL, Yarn
+from dolfinrod.groove.variants import VARIANTS, variant, varied
+
+__all__ = [
+    "INTERMEDIATE",
+    "LATERAL",
+    "VARIANTS",
+    "Along",
+    "Bundle",
+    "Comparison",
+    "Course",
+    "CrossSection",
+    "Ends",
+    "Ensemble",
+    "FixedCore",
+    "Folder",
+    "Interval",
+    "LineSink",
+    "Measured",
+    "Measures",
+    "Progress",
+    "RollingCore",
+    "Run",
+    "Scenario",
+    "Test",
+    "Verdict",
+    "Yarn",
+    "compare",
+    "course",
+    "ensemble",
+    "measure",
+    "measured",
+    "varied",
+    "variant",
+    "verdict",
+]
