@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-import sys
 from dataclasses import dataclass
 from math import log
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from verification.bundlescene import LENGTH
+from verification.processes import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,15 +31,7 @@ __all__ = [
 GROWTH, FEW, MOST = 1.3, 5, 57
 # Of positions by one rank and by two, over the length; sums of forces in another order are all that differs.
 SAME = 1e-10
-# For ranks in containers, and for more of them than cores.
-ALLOWED = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_mpi_yield_when_idle": "1",
-    "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
-}
-# Longest run that is waited for [s].
-PATIENCE = 4 * 3600.0
+RUN = "verification.bundlerun"
 
 
 @dataclass(frozen=True)
@@ -179,7 +167,7 @@ def measured(who: Bundle, fibres: Sequence[int], steps: int) -> BundleStudy:
 
 def cost(who: Bundle, n: int, steps: int) -> BundleCost:
     """One bundle."""
-    found = _run(who, n, steps)
+    found = said(RUN, (who.model, who.elements, who.degree, n, steps))
     if "failure" in found:
         return BundleCost(n, 0, 0, 0, 0, 0, np.nan, np.nan, np.nan, np.nan, found["failure"])
     return BundleCost(fibres=n, **{name: value for name, value in found.items() if name not in ("x", "clock")})
@@ -187,44 +175,9 @@ def cost(who: Bundle, n: int, steps: int) -> BundleCost:
 
 def on_ranks(who: Bundle, n: int, steps: int) -> BundleRanks:
     """One bundle on one rank and on two."""
-    one, two = _run(who, n, steps), _run(who, n, steps, ranks=2)
+    words = (who.model, who.elements, who.degree, n, steps)
+    one, two = (said(RUN, words, ranks) for ranks in (1, 2))
     if failure := one.get("failure", "") or two.get("failure", ""):
         return BundleRanks(n, who.mesh, 0, np.nan, (np.nan, np.nan), failure)
     apart = float(np.abs(np.array(one["x"]) - np.array(two["x"])).max() / LENGTH)
     return BundleRanks(n, who.mesh, one["steps"], apart, (one["clock"], two["clock"]))
-
-
-def _run(who: Bundle, n: int, steps: int, ranks: int = 1) -> dict[str, Any]:
-    """What `bundlerun` says of a run; "failure" where it has none."""
-    program = [
-        sys.executable,
-        "-m",
-        "verification.bundlerun",
-        who.model,
-        *map(str, (who.elements, who.degree, n, steps)),
-    ]
-    root = str(Path(__file__).parents[1])
-    env = os.environ | {"PYTHONPATH": os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])}
-    if ranks > 1:
-        # What an outer mpirun told its ranks is not for these.
-        env = {name: value for name, value in env.items() if not name.startswith(("OMPI_", "PMIX_"))} | ALLOWED
-        program = [
-            "mpirun",
-            "--bind-to",
-            "none",
-            "--oversubscribe",
-            "-n",
-            str(ranks),
-            *program[:1],
-            "-m",
-            "mpi4py",
-            *program[1:],
-        ]
-    try:
-        done = subprocess.run(program, env=env, capture_output=True, text=True, timeout=PATIENCE, check=False)
-    except subprocess.TimeoutExpired:
-        return {"failure": f"stopped after {PATIENCE:g} s"}
-    if done.returncode != 0:
-        return {"failure": (done.stderr.strip().splitlines() or ["no word"])[-1]}
-    told: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
-    return told

@@ -40,6 +40,7 @@ from verification.onestep import OneStep
 from verification.order import Order
 from verification.pace import Pace, PaperFibre
 from verification.peers.contest import Attempt, Contender, Measured, Taker
+from verification.ranks import RankRow
 from verification.references import Peer
 from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
@@ -52,7 +53,7 @@ from verification.workprecision import Record, Study, Timing
 __all__ = ["Ledger", "Unit", "source_hash"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
-Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | TopStudy
+Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | RankRow | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
 Other = Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study | TwistStudy
 Row = Trial | Moved | Touched | Other
@@ -84,7 +85,7 @@ class Unit:
     Args:
         topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
             "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
-            "frequency", "drift", "bundle",
+            "frequency", "drift", "bundle", "ranks",
             "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map",
             "hard contact", "meeting" or "twist".
         words: What is solved, for people.

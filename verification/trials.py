@@ -12,6 +12,7 @@ from verification import (
     eigencases,
     hardcases,
     motiontrials,
+    ranktrials,
     stepping,
     toptrials,
     twisttrials,
@@ -43,6 +44,7 @@ def names() -> tuple[str, ...]:
         *stepping.names(),
         *motiontrials.names(),
         *bundletrials.names(),
+        *ranktrials.names(),
         *toptrials.names(),
         *CONTACT.names(),
         *contactwork.names(),
@@ -86,6 +88,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from stepping.listing(asked)
     yield from motiontrials.listing(asked)
     yield from bundletrials.listing(asked)
+    yield from ranktrials.listing(asked)
     yield from toptrials.listing(asked)
     yield from CONTACT.listing(asked)
     yield from contactwork.listing(asked)
@@ -117,6 +120,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from stepping.units(asked, quick=quick)
     yield from motiontrials.units(asked, quick=quick)
     yield from bundletrials.units(asked, quick=quick)
+    yield from ranktrials.units(asked, quick=quick)
     yield from toptrials.units(asked, quick=quick)
     yield from CONTACT.units(asked, quick=quick)
     yield from contactwork.units(asked, quick=quick)

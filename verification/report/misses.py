@@ -23,6 +23,7 @@ from verification.maps import Cell
 from verification.motion import MotionStudy
 from verification.onestep import OneStep
 from verification.pace import PaperFibre
+from verification.ranks import RankRow
 from verification.report.tables import figure, power, scientific
 from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
@@ -173,7 +174,7 @@ def _(row: DriftStudy) -> str:
 
 
 @sentence.register
-def _(row: BundleStudy | BundleRanks) -> str:
+def _(row: BundleStudy | BundleRanks | RankRow) -> str:
     return row.words
 
 

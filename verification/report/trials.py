@@ -5,7 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from verification.references.robustness import PEER_LOADS
-from verification.report import bundles, contact, contactmaps, groove, hardcontact, meetings, motion, rigid, twist
+from verification.report import (
+    bundles,
+    contact,
+    contactmaps,
+    groove,
+    hardcontact,
+    meetings,
+    motion,
+    ranks,
+    rigid,
+    twist,
+)
 from verification.report.critical import brackets, eigenvalues
 from verification.report.hardmotion import hard_motions
 from verification.report.maps import limits, maps
@@ -28,6 +39,7 @@ TITLES = {
     "maps": "Stability maps",
     "hard-motion": "Hard cases in motion",
     **motion.TITLES,
+    "ranks": ranks.TITLE,
     "bundles": bundles.TITLE,
     "tops": rigid.TITLE,
     "contact": contact.TITLE,
@@ -68,6 +80,7 @@ WORDS = {
     "in shorter steps too; coarse: such an end, nearer to it in steps of half the length. Crawls: stopped, more "
     "attempts failed than steps were asked for.",
     **motion.WORDS,
+    "ranks": ranks.WORDS,
     "bundles": bundles.WORDS,
     "tops": rigid.WORDS,
     "contact": contact.WORDS,
@@ -92,6 +105,7 @@ def contents(report: Report) -> dict[str, str]:
         "hard-motion": hard_motions(report.motions) if report.motions else "",
     }
     parts |= motion.contents(report)
+    parts["ranks"] = ranks.ranks(report.ranks) if report.ranks else ""
     parts["bundles"] = bundles.bundles(report.bundles) if report.bundles else ""
     parts["tops"] = rigid.tops(report.tops) if report.tops else ""
     parts["contact"] = contact.contact_cases(report.touching) if report.touching else ""
@@ -115,6 +129,7 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
         ("maps", report.maps, "cells: explicit schemes fail beyond their limit and only there, implicit ones nowhere"),
         ("hard-motion", report.motions, "hard motions: finished with a sound ledger, or refused with a reason"),
         *motion.outcomes(report),
+        ("ranks", report.ranks, "kinds of scenes with the same answer on one rank and on two"),
         ("bundles", report.bundles, "bundles moved to their ends, on ranks to the same"),
         ("tops", report.tops, "rigid tops: orders of theory, momentum kept, energy lost or swinging as it should"),
         ("contact", report.touching, "ways to take a rod on a surface: answers within their limits, orders as stated"),
