@@ -55,6 +55,14 @@ def add_options(parser: ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, default=Path("report"), metavar="DIR", help="default: %(default)s")
     parser.add_argument("--fresh", action="store_true", help="do again what an earlier run has finished")
     parser.add_argument("--jobs", type=_jobs, default=1, metavar="N", help="units at once; times are best with 1")
+    parser.add_argument(
+        "--summary",
+        nargs="?",
+        type=Path,
+        const=Path(__file__).parent,
+        metavar="DIR",
+        help="also write the verdict as RESULTS.md with its figure; DIR: that of this package unless given",
+    )
     parser.add_argument("--list", action="store_true", help="names and titles, nothing is solved")
 
 
@@ -110,7 +118,7 @@ def reported(options: Namespace) -> int:
     from verification.machine import this_machine
     from verification.plan import plan, selected
     from verification.progress import Progress
-    from verification.report import write
+    from verification.report import summarise, write
     from verification.suite import report, work_off
 
     names = selected(options.names)
@@ -137,9 +145,17 @@ def reported(options: Namespace) -> int:
         say(f"{progress.recalled} of {len(units)} results reused from {folder}{os.sep} (--fresh solves all again)")
     found = report(rows, names, machine, quick=options.quick)
     page = write(found, options.out)
+    if options.summary is not None:
+        say(f"the verdict is in {summarise(found, options.summary, _command(options))}")
     complain(found.missed)
     print(page.resolve())
     return MISSED if found.missed else HOLDS
+
+
+def _command(options: Namespace) -> str:
+    """As it would be typed again."""
+    flags = [name for name, on in (("--quick", options.quick), (f"--jobs {options.jobs}", options.jobs > 1)) if on]
+    return " ".join(["dolfinrod verify --summary", *flags, *options.names])
 
 
 def complain(missed: Iterable[Missed]) -> None:

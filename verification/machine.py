@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import subprocess
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -27,6 +28,7 @@ class Machine:
         system: Operating system.
         load: Mean number of busy processes over the last minute, this one included; above 1, times are noisy.
         date: When, in UTC.
+        source: Commit of this project, and whether files differ from it; empty where git does not say.
         versions: Of Python and the packages.
     """
 
@@ -36,6 +38,7 @@ class Machine:
     system: str
     load: float
     date: str
+    source: str = ""
     versions: dict[str, str] = field(default_factory=dict)
 
 
@@ -48,8 +51,24 @@ def this_machine() -> Machine:
         system=f"{_distribution()}, Linux {platform.release()}, {platform.machine()}",
         load=os.getloadavg()[0],
         date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        source=_source(),
         versions=versions() | _petsc(),
     )
+
+
+def _source() -> str:
+    """Commit of the project."""
+    root = Path(__file__).parents[1]
+    try:
+        found = subprocess.run(
+            ["git", "-C", str(root), "describe", "--always", "--dirty", "--abbrev=12"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    return found.stdout.strip()
 
 
 def _processor() -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
 from dataclasses import asdict
 from html import escape
 from importlib.resources import files
@@ -12,12 +11,15 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from verification.report import trials
 from verification.report.canvas import markers
 from verification.report.contents import TITLES, contents
 from verification.report.families import of_family
 from verification.report.misses import sentence
+from verification.report.outcomes import outcomes
+from verification.report.schema import schema
+from verification.report.summary import CAPTION
 from verification.report.tables import link
+from verification.report.verdict import panels, sentences
 
 if TYPE_CHECKING:
     from verification.suite import Report
@@ -37,7 +39,7 @@ unfold();
 
 
 def write(report: Report, folder: Path) -> Path:
-    """Leave `index.html` and `report.json` in a folder.
+    """Leave `index.html`, and `report.json` with its schema, in a folder.
 
     Args:
         report: What was found.
@@ -51,6 +53,8 @@ def write(report: Report, folder: Path) -> Path:
     del record["shapes"]
     text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False)
     (folder / "report.json").write_text(text + "\n", encoding="utf-8")
+    described = json.dumps(schema(), indent=1, ensure_ascii=False)
+    (folder / "report.schema.json").write_text(described + "\n", encoding="utf-8")
     page = folder / "index.html"
     page.write_text(html(report, tests_seen_from(folder)), encoding="utf-8")
     return page
@@ -94,7 +98,8 @@ def html(report: Report, tests: Path | None = None) -> str:
 {navigation(report, parts)}
 <main>
 {body}
-<footer>Made by <code>dolfinrod verify</code>; the same numbers in <a href="report.json">report.json</a>.
+<footer>Made by <code>dolfinrod verify</code>; the same numbers in <a href="report.json">report.json</a>, described by
+<a href="report.schema.json">its schema</a>.
 Errors are |found − reference| divided by the length of the rod. The exit code never depends on time.</footer>
 </main>
 <script>{SCRIPT}</script>
@@ -112,51 +117,26 @@ def heading(report: Report) -> str:
 <p class="lead">The continuum model (DOLFINx and PETSc SNES) and the paper's discrete 12 × 12 model solve the same
 scenes. Here are their errors against independent references, against time, and against each other.</p>
 <p class="soft">{scope}. {kind}{escape(report.machine.date)}, {escape(report.machine.processor)}, one thread.</p>
+{first(report)}
 {verdicts(report)}
 {misses(report)}"""
 
 
 def verdicts(report: Report) -> str:
     """The outcome in boxes, each of which leads to its rows."""
-    errors = [c for c in report.checks if c.quantity.startswith("error")]
-    orders = [c for c in report.checks if c.quantity.startswith("order")]
-    digits = [c for c in report.checks if c.quantity == "digits"]
-    boxes = (
-        verdict(
-            "reach",
-            digits,
-            "continuum: cases to 10⁻⁸, or nearing it with the order of theory",
-        ),
-        verdict("laws", report.laws, "laws hold: objectivity, balance, path independence, units …"),
-        verdict("cross", report.crosschecks, "differences between the models explained by refinement"),
-        verdict("limits", errors, "error limits on given meshes hold"),
-        verdict("step", report.one_step, "whole loads taken in one step, within the iterations allowed"),
-        verdict("orders", orders, "observed orders reach theory"),
-        *(verdict(*outcome) for outcome in trials.outcomes(report)),
-        *(
-            box("hard", "" if s.holds else " bad", s.converged, s.total, "hard cases solved by the continuum model")
-            for s in report.shares
-        ),
-        verdict("speed", report.speeds, "speed figures within their limit on this machine, now", slow=True),
+    boxes = "".join(
+        f'<a class="verdict {o.mark}" href="#{o.key}"><b>{o.sign} {o.good} of {o.total}</b><span>{o.words}</span></a>'
+        for o in outcomes(report)
     )
-    return f'<div class="verdicts">{"".join(boxes)}</div>'
+    return f'<div class="verdicts">{boxes}</div>'
 
 
-def verdict(key: str, rows: Sequence[Any], words: str, *, slow: bool = False) -> str:
-    """How many hold; those that a case explains are neither good nor missed."""
-    if not rows:
-        return ""
-    good, missed = sum(row.holds for row in rows), sum(getattr(row, "missed", not row.holds) for row in rows)
-    explained = len(rows) - good - missed
-    mark = "" if not missed else " slow" if slow else " bad"
-    more = f", {explained} explained at their cases" if explained else ""
-    return box(key, mark, good, len(rows), words + more)
-
-
-def box(key: str, mark: str, good: int, total: int, words: str) -> str:
-    """A verdict that leads to its rows; a mark is the class of what is not good."""
-    sign = "✗" if mark else "✓"
-    return f'<a class="verdict{mark}" href="#{key}"><b>{sign} {good} of {total}</b><span>{words}</span></a>'
+def first(report: Report) -> str:
+    """The figure and the sentences that come before everything else."""
+    drawn = "".join(f"<figure><figcaption>{escape(title)}</figcaption>{svg}</figure>" for title, svg in panels(report))
+    said = "".join(f"<li>{escape(words)}</li>" for words in sentences(report))
+    words = f'<p class="soft">{escape(CAPTION)}</p>' if drawn else ""
+    return f'<ul class="said">{said}</ul><div class="panels">{drawn}</div>{words}'
 
 
 def misses(report: Report) -> str:

@@ -221,6 +221,7 @@ def machine(report: Report) -> str:
         "processor": f"{m.processor}, {m.cores} cores",
         "threads": f"OMP_NUM_THREADS = {m.threads}, one MPI rank",
         "load average at the start": f"{m.load:.2f}" + (" (others were busy: times are noisy)" if m.load > 1.2 else ""),
+        "source": m.source or "not under git",
         "system": m.system,
         **m.versions,
     }
