@@ -140,5 +140,5 @@ def test_text_is_legible(browser):
 
 
 def test_the_verdict_is_on_the_first_screen(browser):
-    script = "return document.querySelector('.verdicts').getBoundingClientRect().top + scrollY"
+    script = "return document.querySelector('.said').getBoundingClientRect().bottom + scrollY"
     assert browser.execute_script(script) < 1000

@@ -74,8 +74,11 @@ def sentences(report: Report) -> tuple[str, ...]:
 def _held(report: Report) -> str:
     kinds = outcomes(report)
     good, total, missed = sum(k.good for k in kinds), sum(k.total for k in kinds), len(report.missed)
+    slow = sum(k.total - k.good for k in kinds if k.mark == "slow")
+    rest = {"explained at their cases": total - good - missed - slow, "of times on this machine": slow}
+    others = "".join(f", {n} {words}" for words, n in rest.items() if n > 0)
     beyond = f"{missed} {'is' if missed == 1 else 'are'} beyond, each listed below" if missed else "none is beyond"
-    return f"Of {total} numbers with a limit, {good} hold; {beyond}."
+    return f"Of {total} numbers with a limit, {good} hold{others}; {beyond}."
 
 
 def _bent(report: Report) -> str:
@@ -144,8 +147,8 @@ def _quickest(report: Report, case: str) -> str:
 
 
 def _case(report: Report, family: str) -> str:
-    """The case of a family that was studied in depth, or any; "" where none was."""
-    found = [s.case for s in report.studies if s.case == family or s.case.startswith(f"{family}-")]
+    """The case of a family that was studied in depth, or the first; "" where none was."""
+    found = [s.name for s in report.statements if s.family == family]
     deep = [case for case in found if case in report.headlines]
     return (deep + found + [""])[0]
 
