@@ -148,7 +148,8 @@ def _quickest(report: Report, case: str) -> str:
 
 def _case(report: Report, family: str) -> str:
     """The case of a family that was studied in depth, or the first; "" where none was."""
-    found = [s.name for s in report.statements if s.family == family]
+    solved = {study.case for study in report.studies}
+    found = [s.name for s in report.statements if s.family == family and s.name in solved]
     deep = [case for case in found if case in report.headlines]
     return (deep + found + [""])[0]
 
