@@ -303,12 +303,12 @@ def test_verify_refuses_in_one_line(dolfinrod, words, complaint):
 
 @pytest.mark.serial
 def test_verify_interrupted_says_how_to_go_on(dolfinrod, tmp_path, monkeypatch):
-    from verification import suite
+    from verification import workoff
 
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(suite, "work_off", interrupted)
+    monkeypatch.setattr(workoff, "work_off", interrupted)
     done = dolfinrod("verify", "elastica-1", "--out", tmp_path)
     assert (done.code, done.out) == (130, "")
     assert done.err.count("\n") == 1

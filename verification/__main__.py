@@ -9,12 +9,15 @@ import os
 import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 # NumPy must not be loaded here: `main` settles the number of its threads first.
 if TYPE_CHECKING:
+    from verification.ledger import Ledger, Row, Unit
+    from verification.progress import Progress
     from verification.suite import Missed
 
 __all__ = ["DESCRIPTION", "add_options", "main", "verify"]
@@ -112,14 +115,13 @@ def listed(options: Namespace) -> int:
 
 def reported(options: Namespace) -> int:
     """Do what is not yet done, write the page and print its path."""
-    from verification.atonce import at_once
-    from verification.interrupt import Interrupt
     from verification.ledger import Ledger
     from verification.machine import this_machine
     from verification.plan import plan, selected
     from verification.progress import Progress
     from verification.report import summarise, write
-    from verification.suite import report, work_off
+    from verification.suite import report
+    from verification.workoff import spent
 
     names = selected(options.names)
     machine = this_machine()
@@ -127,14 +129,8 @@ def reported(options: Namespace) -> int:
     folder = options.out / FINISHED
     progress = Progress(sys.stderr, len(units))
     try:
-        with Interrupt() as interrupt:
-            ledger = Ledger(folder, machine, fresh=options.fresh)
-            if options.jobs > 1:
-                at_once(partial(plan, names, quick=options.quick), ledger, options.jobs, progress)
-                interrupt.check()
-                rows = work_off(units, ledger, interrupt=interrupt)
-            else:
-                rows = work_off(units, ledger, progress, interrupt)
+        ledger = Ledger(folder, machine, fresh=options.fresh)
+        rows = _rows(units, ledger, progress, options)
     except KeyboardInterrupt:
         progress.clear()
         finished = f"{progress.done} of {len(units)} finished and kept in {folder}{os.sep}"
@@ -144,12 +140,29 @@ def reported(options: Namespace) -> int:
     if progress.recalled:
         say(f"{progress.recalled} of {len(units)} results reused from {folder}{os.sep} (--fresh solves all again)")
     found = report(rows, names, machine, quick=options.quick)
+    found = replace(found, jobs=options.jobs, spent=spent(units, ledger))
     page = write(found, options.out)
     if options.summary is not None:
         say(f"the verdict is in {summarise(found, options.summary, _command(options))}")
     complain(found.missed)
     print(page.resolve())
     return MISSED if found.missed else HOLDS
+
+
+def _rows(units: Sequence[Unit], ledger: Ledger, progress: Progress, options: Namespace) -> dict[str, tuple[Row, ...]]:
+    """Rows of all units by topic; those not yet done are done, several at once where that is asked for."""
+    from verification.atonce import at_once
+    from verification.interrupt import Interrupt
+    from verification.plan import plan, selected
+    from verification.workoff import work_off
+
+    with Interrupt() as interrupt:
+        if options.jobs == 1:
+            return work_off(units, ledger, progress, interrupt)
+        again = partial(plan, selected(options.names), quick=options.quick)
+        at_once(again, ledger, options.jobs, progress)
+        interrupt.check()
+        return work_off(units, ledger, interrupt=interrupt)
 
 
 def _command(options: Namespace) -> str:

@@ -72,7 +72,7 @@ def _work(plan: Callable[[], Sequence[Unit]], ledger: Ledger, taken: Synchronize
                 return
             rows = ledger.recall(units[k])
             if rows is None:
-                found = units[k].work()
+                found, seconds = units[k].done()
                 interrupt.check()
-                ledger.keep(units[k], found if isinstance(found, tuple) else (found,))
+                ledger.keep(units[k], found, seconds)
             writer.send((k, rows is not None))

@@ -16,6 +16,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
 from math import isfinite
 from pathlib import Path
+from time import perf_counter
 from typing import Any, get_args
 
 import numpy as np
@@ -98,6 +99,12 @@ class Unit:
     parameters: tuple[str | int | float, ...]
     work: Callable[[], Row | tuple[Row, ...]]
 
+    def done(self) -> tuple[tuple[Row, ...], float]:
+        """Do it: rows, and seconds by the clock."""
+        began = perf_counter()
+        rows = self.work()
+        return rows if isinstance(rows, tuple) else (rows,), perf_counter() - began
+
 
 class Ledger:
     """Rows of finished units in a folder.
@@ -134,10 +141,18 @@ class Ledger:
         """Recall this unit even where all others are done afresh: it was kept by a process of this run."""
         self._trusted.add(self._place(unit))
 
-    def keep(self, unit: Unit, rows: tuple[Row, ...]) -> None:
-        """Write the rows of a unit, whole or not at all."""
+    def seconds(self, unit: Unit) -> float:
+        """What a kept unit took, by the clock; 0 where it is not kept [s]."""
+        try:
+            return float(json.loads(self._place(unit).read_text(encoding="utf-8"))["seconds"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return 0.0
+
+    def keep(self, unit: Unit, rows: tuple[Row, ...], seconds: float = 0.0) -> None:
+        """Write the rows of a unit and what it took [s], whole or not at all."""
         place = self._place(unit)
-        record = {"topic": unit.topic, "words": unit.words, "parameters": unit.parameters, "rows": encode(rows)}
+        facts = {"topic": unit.topic, "words": unit.words, "parameters": unit.parameters, "seconds": seconds}
+        record = facts | {"rows": encode(rows)}
         draft = place.with_suffix(f".{os.getpid()}")
         draft.write_text(json.dumps(record, ensure_ascii=False, allow_nan=False), encoding="utf-8")
         draft.replace(place)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -36,14 +36,13 @@ from verification.speed import Speed
 from verification.stability import Bracket, EigenStudy
 from verification.statement import Statement, statement
 from verification.twist import TwistStudy
+from verification.workoff import Spent
 from verification.workprecision import Study
 
 if TYPE_CHECKING:
-    from verification.interrupt import Interrupt
-    from verification.ledger import Ledger, Row, Unit
     from verification.shape import Shape
 
-__all__ = ["Missed", "Report", "report", "work_off"]
+__all__ = ["Missed", "Report", "report"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
 Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | RankRow | TopStudy
@@ -117,6 +116,8 @@ class Report:
         twists: How twist is measured.
         meetings: Rods on rods on finer and finer levels.
         contenders: Other people's solvers and our models on one problem.
+        jobs: Units that were done at once; with more than one, times are noisier.
+        spent: What the suite itself took.
     """
 
     machine: Machine
@@ -148,6 +149,8 @@ class Report:
     bundles: tuple[BundleStudy | BundleRanks, ...] = ()
     ranks: tuple[RankRow, ...] = ()
     contenders: tuple[Contender, ...] = ()
+    jobs: int = 1
+    spent: tuple[Spent, ...] = ()
     tops: tuple[TopStudy, ...] = ()
     touching: tuple[ContactStudy, ...] = ()
     grooves: tuple[GrooveSweep, ...] = ()
@@ -180,37 +183,6 @@ class Report:
         missed += [row for row in (*touched, *self.hard_contacts, *self.meetings, *self.twists) if not row.holds]
         missed += [row for row in self.fewest if row.missed]
         return tuple(missed)
-
-
-def work_off(
-    units: Sequence[Unit],
-    ledger: Ledger,
-    note: Callable[[int, Unit, bool], None] = lambda *_: None,
-    interrupt: Interrupt | None = None,
-) -> dict[str, tuple[Row, ...]]:
-    """Do what is not yet done.
-
-    Args:
-        units: All of them.
-        ledger: Where finished ones are kept.
-        note: Told, before each unit, how many went before it, the unit, and whether it is recalled.
-        interrupt: Asked after each unit, so that none is kept that was disturbed.
-
-    Returns:
-        Rows by topic.
-    """
-    found: dict[str, tuple[Row, ...]] = {}
-    for k, unit in enumerate(units):
-        rows = ledger.recall(unit)
-        note(k, unit, rows is not None)
-        if rows is None:
-            done = unit.work()
-            if interrupt is not None:
-                interrupt.check()
-            rows = done if isinstance(done, tuple) else (done,)
-            ledger.keep(unit, rows)
-        found[unit.topic] = (*found.get(unit.topic, ()), *rows)
-    return found
 
 
 def report(rows: dict[str, Any], names: Iterable[str], machine: Machine, *, quick: bool) -> Report:

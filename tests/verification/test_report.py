@@ -13,7 +13,7 @@ import pytest
 from dolfinrod.scene import Planar
 from verification import __main__ as command
 from verification import report as page_package
-from verification import suite
+from verification import suite, workoff
 from verification.case import Case
 from verification.cases import bend45, elastica
 from verification.checks import Check
@@ -336,7 +336,7 @@ def test_a_slow_figure_is_marked_but_no_miss(page):
 
 @pytest.mark.parametrize(("changes", "code"), [({}, 0), *(({key: rows}, 1) for key, rows in MISSES.items())])
 def test_exit_code_follows_numbers_never_time(changes, code, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(suite, "work_off", lambda *_: {})
+    monkeypatch.setattr(workoff, "work_off", lambda *_: {})
     monkeypatch.setattr(suite, "report", lambda *_, **__: report(**changes))
     monkeypatch.setattr(page_package, "write", lambda _, folder: folder / "index.html")
     assert command.main(["--quick", "--out", str(tmp_path)]) == code

@@ -20,7 +20,8 @@ from verification.machine import this_machine
 from verification.order import Order
 from verification.plan import LAWS, families, headlines, known, plan, selected
 from verification.shape import Shape
-from verification.suite import report, work_off
+from verification.suite import report
+from verification.workoff import Spent, spent, work_off
 from verification.workprecision import Record, Study, Timing
 
 pytestmark = pytest.mark.serial
@@ -158,6 +159,19 @@ def test_what_numbers_depend_on_is_part_of_their_name(change, tmp_path, monkeypa
     # What another source found is thrown away, what is not a ledger's is let alone.
     assert len(list(tmp_path.glob("*/*.json"))) == (change == "parameters")
     assert (tmp_path / "mine").exists()
+
+
+def test_what_the_suite_took_is_kept_with_the_rows(tmp_path):
+    """Also when a later run recalls them; of what was not done there is nothing."""
+    book, units = Ledger(tmp_path, MACHINE), [unit("first", study), unit("second", study)]
+    for k, one in enumerate(units):
+        book.keep(one, (study(),), 1.0 + k)
+    (row,) = spent(units, Ledger(tmp_path, MACHINE))
+    assert row == Spent("study", 2, 3.0, "second", 2.0)
+    assert book.seconds(unit("third", study)) == 0.0
+    rows, seconds = units[0].done()
+    assert rows == (study(),)
+    assert seconds > 0.0
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,9 @@ from verification.report import summarise, write
 from verification.report.misses import sentence
 from verification.report.outcomes import outcomes
 from verification.report.schema import schema
+from verification.report.sections import machine
 from verification.report.verdict import front, panels, sentences
+from verification.workoff import Spent
 
 pytestmark = pytest.mark.serial
 
@@ -84,6 +86,13 @@ def test_a_page_says_by_which_source_it_was_made():
     found = report()
     assert replace(found.machine, source="").source == ""
     assert found.machine.source
+
+
+def test_a_page_says_what_the_suite_took_and_how_many_units_ran_at_once():
+    text = machine(report(jobs=2, spent=(Spent("study", 3, 90.0, "the longest of them", 60.0),)))
+    assert "2, so that times are noisier" in text
+    assert "1.5 min of work" in text
+    assert "the longest of them" in text
 
 
 def test_the_command_writes_the_summary(tmp_path, capsys):

@@ -214,15 +214,33 @@ def seconds(value: float) -> str:
 
 
 def machine(report: Report) -> str:
-    """Machine and versions."""
+    """Machine and versions, and what the suite itself took."""
     m = report.machine
+    at_once = "one" if report.jobs == 1 else f"{report.jobs}, so that times are noisier than with one"
     facts = {
         "date": m.date,
         "processor": f"{m.processor}, {m.cores} cores",
         "threads": f"OMP_NUM_THREADS = {m.threads}, one MPI rank",
         "load average at the start": f"{m.load:.2f}" + (" (others were busy: times are noisy)" if m.load > 1.2 else ""),
+        "units of work at once": at_once,
         "source": m.source or "not under git",
         "system": m.system,
         **m.versions,
     }
-    return table((Column("what"), Column("value", kind="prose")), facts.items())
+    return table((Column("what"), Column("value", kind="prose")), facts.items()) + took(report)
+
+
+def took(report: Report) -> str:
+    """Seconds of the suite by kind of work."""
+    if not report.spent:
+        return ""
+    columns = (
+        Column("kind of work"),
+        Column("units", "", "number"),
+        Column("all", "s", "number"),
+        Column("longest", kind="prose"),
+        Column("it took", "s", "number"),
+    )
+    rows = ((s.topic, count(s.units), seconds(s.seconds), s.longest, seconds(s.most)) for s in report.spent)
+    whole = sum(s.seconds for s in report.spent)
+    return f"<h3>What the suite took: {seconds(whole / 60.0)} min of work</h3>" + table(columns, rows)
