@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TextIO
 if TYPE_CHECKING:
     from dolfinrod.result import StepLog
 
-__all__ = ["ProgressLine"]
+__all__ = ["ProgressLine", "duration"]
 
 # Seconds for which a line stands at least.
 LEGIBLE = 0.1
@@ -62,7 +62,7 @@ class ProgressLine:
         left = (now - self._start) * (t_end - step.t) / step.t
         self._show(
             f"{self._name}: step {self._steps}, t = {step.t:.4g} of {t_end:.4g}{self._unit} ({step.t / t_end:.0%}), "
-            f"{self._iterations} iterations, about {_duration(left)} left"
+            f"{self._iterations} iterations, about {duration(left)} left"
         )
 
     def clear(self) -> None:
@@ -76,7 +76,7 @@ class ProgressLine:
         self._stream.flush()
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
     """Seconds in the form 7 s, 1:07 min or 1:07:07 h."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)

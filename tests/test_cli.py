@@ -330,7 +330,7 @@ def test_verify_measures_one_thread(monkeypatch):
 
 def test_verify_is_for_one_rank(dolfinrod, monkeypatch):
     if world() is None or world().size == 1:
-        monkeypatch.setattr(cli, "_ranks", lambda: 2)
+        monkeypatch.setattr(cli, "ranks", lambda: 2)
     done = dolfinrod("verify", "--list")
     assert done.code == 2
     assert "verify measures one process" in done.err

@@ -10,18 +10,23 @@ The paper gives the fibre, one angle and little else; what else a bundle in a gr
 assumed value, marked [I] where it is described.
 """
 
+from dolfinrod.groove import toml
 from dolfinrod.groove.air import LineSink
 from dolfinrod.groove.bundle import Bundle
+from dolfinrod.groove.clock import Progress
 from dolfinrod.groove.comparison import Comparison, Measured, Verdict, compare, measured, verdict
 from dolfinrod.groove.core import FixedCore, RollingCore
 from dolfinrod.groove.course import Course, course
 from dolfinrod.groove.ends import Ends
-from dolfinrod.groove.ensemble import Ensemble, Progress, ensemble
+from dolfinrod.groove.ensemble import Ensemble, ensemble
 from dolfinrod.groove.measures import Along, Measures, measure
+from dolfinrod.groove.parameters import Parameter, parameters
+from dolfinrod.groove.rows import rows, write_rows
 from dolfinrod.groove.runs import Folder, Run
 from dolfinrod.groove.scenario import Scenario
 from dolfinrod.groove.sections import CrossSection
 from dolfinrod.groove.statistics import Interval, Test
+from dolfinrod.groove.sweep import grid, sweep
 from dolfinrod.groove.table1 import INTERMEDIATE, LATERAL, Yarn
 from dolfinrod.groove.variants import VARIANTS, variant, varied
 
@@ -42,6 +47,7 @@ __all__ = [
     "LineSink",
     "Measured",
     "Measures",
+    "Parameter",
     "Progress",
     "RollingCore",
     "Run",
@@ -52,9 +58,15 @@ __all__ = [
     "compare",
     "course",
     "ensemble",
+    "grid",
     "measure",
     "measured",
+    "parameters",
+    "rows",
+    "sweep",
+    "toml",
     "varied",
     "variant",
     "verdict",
+    "write_rows",
 ]

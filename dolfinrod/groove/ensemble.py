@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from importlib import import_module
 from typing import TYPE_CHECKING
 from uuid import uuid4
 
 import numpy as np
 
+from dolfinrod.groove.clock import Clock, Job, Progress
 from dolfinrod.groove.course import course
 from dolfinrod.groove.described import described, key
 from dolfinrod.groove.limits import known
 from dolfinrod.groove.measures import Measures, measure
 from dolfinrod.groove.runs import Folder, Run
 from dolfinrod.groove.scenario import MODELS, Scenario
+from dolfinrod.interrupt import Interrupt
 from dolfinrod.result import NotConverged
 from dolfinrod.scene import SceneError
 
@@ -25,32 +28,15 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from dolfinrod.result import Result
+    from dolfinrod.result import Result, StepLog
 
-__all__ = ["Ensemble", "Progress", "ensemble"]
+__all__ = ["Ensemble", "ensemble", "world"]
 
 # What a run may end with that the next need not: no convergence, no scene, a singular matrix, fibres that cannot be
 # measured.
 FAILURES = (RuntimeError, ValueError, ArithmeticError, np.linalg.LinAlgError)
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far an ensemble is.
-
-    Args:
-        done: Finished runs of all ranks, failed ones and earlier ones included.
-        failed: Of them.
-        total: Of all.
-        seconds: Since this session began [s].
-        left: Until the last is finished, if the rest goes on like this [s]; None: no run of this session has ended.
-    """
-
-    done: int
-    failed: int
-    total: int
-    seconds: float
-    left: float | None
+# Seconds between two looks at whether the others have ended.
+PATIENCE = 0.05
 
 
 @dataclass(frozen=True)
@@ -91,53 +77,73 @@ def ensemble(
     scenarios: Scenario | Sequence[Scenario],
     *,
     folder: str | os.PathLike[str],
-    seeds: Iterable[int] = range(10),
-    model: str = "discrete",
+    seeds: Iterable[int] | None = range(10),
+    model: str | Sequence[str] = "discrete",
     elements: int | None = None,
     comm: Intracomm | None = None,
     progress: Callable[[Progress], None] | None = None,
 ) -> Ensemble:
     """Solve every scenario with every seed, each run by one rank; what the folder holds already is not done again.
 
+    Ranks take runs one after the other as they become free, the longest first. Ctrl-C ends the run at hand, which is
+    then not kept.
+
     Args:
-        scenarios: One or more; their own seeds are replaced.
+        scenarios: One or more.
         folder: Where finished runs are kept. To repeat one, remove its file.
-        seeds: Of the noise.
-        model: "continuum" or "discrete".
+        seeds: Of the noise, instead of those of the scenarios; None: each scenario as it is.
+        model: "continuum", "discrete", or both of them.
         elements: Of a fibre; None: what each scenario says.
         comm: Whose ranks share the work; all call together. None: the world.
-        progress: Called after each run of this rank, and once before the first.
+        progress: Called before, during and after each run of this rank.
 
     Returns:
         All runs, on every rank. A run that failed is recorded, and the others go on.
 
     Raises:
         SceneError: An unknown model, no runs.
+        KeyboardInterrupt: It was asked for; what had ended by then is kept.
     """
-    asked = _asked(scenarios, tuple(seeds), model, elements)
-    comm, kept = comm or _world(), Folder(folder)
+    asked = _asked(scenarios, seeds, (model,) if isinstance(model, str) else tuple(model), elements)
+    comm, kept = comm or world(), Folder(folder)
     if comm.rank == 0:
         kept.sweep()
-    session, clock = comm.bcast(uuid4().hex, root=0), _Clock(kept, tuple(asked), progress)
+    session, clock = comm.bcast(uuid4().hex, root=0), Clock(kept, asked, comm.size, progress)
     clock.tell()
-    # Whoever is free takes the next: runs of different bundles last differently.
-    for name, scenario in asked.items():
-        if kept.read(name) is None and kept.claim(session, name):
-            kept.write(*_solved(name, scenario, model, elements))
-            clock.tell()
-    return _gathered(kept, tuple(asked), comm)
+    _work_off(asked, kept, session, elements, clock)
+    return _gathered(kept, tuple(asked), comm, clock)
 
 
-def _world() -> Intracomm:
+def _work_off(asked: Mapping[str, Job], kept: Folder, session: str, elements: int | None, clock: Clock) -> None:
+    """Whoever is free takes the next run, the longest first, so that ranks end together."""
+    if any(job.model == "continuum" for job in asked.values()):
+        # PETSc begins on all ranks together: one that solves nothing would keep the others waiting.
+        import_module("dolfinrod.continuum")
+    with Interrupt() as interrupt:
+        for name, job in sorted(asked.items(), key=lambda entry: -entry[1].cost):
+            if kept.read(name) is None and kept.claim(session, name):
+                clock.begin(job)
+                done = _solved(name, job, elements, clock.step)
+                # Solvers answer Ctrl-C with what they have reached, which is no end of a run.
+                interrupt.check()
+                kept.write(*done)
+                clock.end()
+
+
+def world() -> Intracomm:
     """All ranks that were started together."""
     from mpi4py import MPI
 
     return MPI.COMM_WORLD
 
 
-def _gathered(kept: Folder, names: tuple[str, ...], comm: Intracomm) -> Ensemble:
+def _gathered(kept: Folder, names: tuple[str, ...], comm: Intracomm, clock: Clock) -> Ensemble:
     """All runs, once every rank has done its own."""
-    comm.barrier()
+    others = comm.Ibarrier()
+    # A barrier would keep a core busy that another rank may need.
+    while not others.Test():
+        time.sleep(PATIENCE)
+        clock.tell()
     found = tuple(run for name in names if (run := kept.read(name)) is not None)
     comm.barrier()
     if comm.rank == 0:
@@ -145,44 +151,31 @@ def _gathered(kept: Folder, names: tuple[str, ...], comm: Intracomm) -> Ensemble
     return Ensemble(found)
 
 
-class _Clock:
-    """Tells how far all ranks are."""
-
-    def __init__(self, kept: Folder, names: tuple[str, ...], progress: Callable[[Progress], None] | None) -> None:
-        self._kept, self._names, self._progress = kept, names, progress
-        self._begun, self._before = time.monotonic(), sum(kept.read(name) is not None for name in names)
-
-    def tell(self) -> None:
-        """Call back with what the folder holds by now."""
-        if self._progress is None:
-            return
-        found = [run for name in self._names if (run := self._kept.read(name)) is not None]
-        seconds, new = time.monotonic() - self._begun, len(found) - self._before
-        left = seconds / new * (len(self._names) - len(found)) if new > 0 else None
-        failed = sum(run.failed is not None for run in found)
-        self._progress(Progress(len(found), failed, len(self._names), seconds, left))
-
-
 def _asked(
-    scenarios: Scenario | Sequence[Scenario], seeds: tuple[int, ...], model: str, elements: int | None
-) -> dict[str, Scenario]:
-    """Every scenario with every seed, by its key."""
-    known(model, "model", MODELS)
+    scenarios: Scenario | Sequence[Scenario],
+    seeds: Iterable[int] | None,
+    models: tuple[str, ...],
+    elements: int | None,
+) -> dict[str, Job]:
+    """Every scenario with every seed by every model, by its key."""
     several = (scenarios,) if isinstance(scenarios, Scenario) else tuple(scenarios)
-    each = [replace(scenario, seed=seed) for scenario in several for seed in seeds]
+    if seeds is not None:
+        numbers = tuple(seeds)
+        several = tuple(replace(scenario, seed=seed) for scenario in several for seed in numbers)
+    each = [Job(one, known(model, "model", MODELS)) for model in models for one in several]
     if not each:
         raise SceneError("must ask for at least one run, got none", field="seeds")
-    return {key(one, model, elements): one for one in each}
+    return {key(job.scenario, job.model, elements): job for job in each}
 
 
 def _solved(
-    name: str, scenario: Scenario, model: str, elements: int | None
+    name: str, job: Job, elements: int | None, step: Callable[[StepLog, float], None]
 ) -> tuple[Run, dict[str, NDArray[np.float64]]]:
     """One run and its arrays."""
-    begun = time.process_time()
-    blank = Run(name, scenario.kind, scenario.seed, model, described(scenario), 0.0, None, 0.0)
+    begun, scenario = time.process_time(), job.scenario
+    blank = Run(name, scenario.kind, scenario.seed, job.model, described(scenario), 0.0, None, 0.0)
     try:
-        result = scenario.run(model, elements=elements)
+        result = scenario.run(job.model, elements=elements, progress=step)
         arrays, measures = _arrays(result, scenario), measure(result, scenario)
     except FAILURES as error:
         reached = error.t if isinstance(error, NotConverged) else 0.0

@@ -53,19 +53,19 @@ from typing import Any
 from dolfinrod.scene import source
 from dolfinrod.scene.contact import Contact
 from dolfinrod.scene.errors import SceneError
-from dolfinrod.scene.fields import Specific
-from dolfinrod.scene.kinds import AIR, CONTACT, LOADS, MOTIONS, RODS, SECTION, SECTIONS, SUPPORTS, TOUCHED, VELOCITIES
+from dolfinrod.scene.kinds import AIR, CONTACT, LOADS, MOTIONS, RODS, SUPPORTS, TOUCHED, VELOCITIES
 from dolfinrod.scene.motion import Static
 from dolfinrod.scene.options import options
 from dolfinrod.scene.rod import Rod
 from dolfinrod.scene.rodcontact import RodContact
 from dolfinrod.scene.scene import MOST_PARTS, Scene
 from dolfinrod.scene.section import Section
+from dolfinrod.scene.sectiontables import read_section, section_table
 from dolfinrod.scene.shape import UniformCurvature
 from dolfinrod.scene.spline import Spline
 from dolfinrod.scene.tables import meant, refuse_unknown, table_of
 
-__all__ = ["dumps", "load", "loads"]
+__all__ = ["dumps", "load", "loads", "parsed"]
 
 TABLES = ("section", "rods", "supports", "loads", "contacts", "air", "motion", "velocities", "solve")
 # The time of tomllib grows with the square of the names in a dotted key.
@@ -91,18 +91,29 @@ def load(path: str | Path) -> tuple[Scene, dict[str, Any]]:
 
 def loads(text: str, *, folder: str | Path = ".") -> tuple[Scene, dict[str, Any]]:
     """A scene from the text of a file; as `load`, the files it names being sought from `folder`."""
-    if ENDLESS_KEY.search(text):
-        raise SceneError("a scene must not nest tables so deeply: more than 32 names joined by dots")
     try:
-        data = _parsed(text)
+        data = parsed(text)
         scene = _scene(data, Path(folder))
         return scene, options(table_of(data.get("solve", {}), "solve"), len(scene.rods))
     except RecursionError:
         raise SceneError("a scene must not nest lists and tables so deeply") from None
 
 
-def _parsed(text: str) -> dict[str, Any]:
-    """What TOML holds; numbers of thousands of digits are a ValueError of their own."""
+def parsed(text: str) -> dict[str, Any]:
+    """The tables that a text holds.
+
+    Args:
+        text: TOML.
+
+    Returns:
+        Its tables.
+
+    Raises:
+        SceneError: Not TOML, or tables within tables without end.
+    """
+    if ENDLESS_KEY.search(text):
+        raise SceneError("a scene must not nest tables so deeply: more than 32 names joined by dots")
+    # Numbers of thousands of digits are a ValueError of their own.
     try:
         return tomllib.loads(text)
     except ValueError as error:
@@ -113,7 +124,8 @@ def _scene(data: Mapping[str, Any], folder: Path) -> Scene:
     """The scene that the tables of a file describe."""
     refuse_unknown(data, TABLES, "")
     sections = {
-        name: _section(table, f"section.{name}") for name, table in table_of(data.get("section", {}), "section").items()
+        name: read_section(table, f"section.{name}")
+        for name, table in table_of(data.get("section", {}), "section").items()
     }
     return Scene(
         rods=[_rod(table, f"rods[{i}]", sections, folder) for i, table in enumerate(_list(data, "rods"))],
@@ -144,7 +156,7 @@ def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
     sections = list(dict.fromkeys(rod.section for rod in scene.rods))
     names = {section: f"section_{i}" for i, section in enumerate(sections)}
     tables = {
-        "section": {name: _stiffness(section, f"section.{name}") for section, name in names.items()},
+        "section": {name: section_table(section, f"section.{name}") for section, name in names.items()},
         "rods": [_shape(rod, f"rods[{i}]") | {"section": names[rod.section]} for i, rod in enumerate(scene.rods)],
         "supports": [SUPPORTS.write(part, f"supports[{i}]") for i, part in enumerate(scene.supports)],
         "loads": [LOADS.write(part, f"loads[{i}]") for i, part in enumerate(scene.loads)],
@@ -155,24 +167,6 @@ def dumps(scene: Scene, solve: Mapping[str, Any] | None = None) -> str:
         "solve": dict(solve or {}),
     }
     return tomli_w.dumps({name: table for name, table in tables.items() if table})
-
-
-def _section(table: Any, path: str) -> Section:
-    """A section by shape and material, or by its stiffnesses."""
-    table = table_of(table, path)
-    shapes = table.keys() & SECTIONS.kinds.keys()
-    if not shapes:
-        section: Section = SECTION.read(table, path)
-        return section
-    kind, inner, path = SECTIONS.chosen(table, path)
-    values = kind.values(inner, path, {})
-    for name, value in values.items():
-        if isinstance(value, Specific):
-            if values.get("density") is None:
-                raise SceneError(f"must be given, since {name} is a modulus per density", field=f"{path}.density")
-            values[name] = value.value * values["density"]
-    made: Section = kind.made(values, path)
-    return made
 
 
 def _rod(table: Any, path: str, sections: Mapping[str, Section], folder: Path) -> Rod:
@@ -221,13 +215,6 @@ def _list(data: Mapping[str, Any], name: str) -> list[Any]:
     if len(value) > MOST_PARTS:  # before each is read
         raise SceneError(f"must be at most {MOST_PARTS}, got {len(value)}", field=name)
     return value
-
-
-def _stiffness(section: Section, path: str) -> dict[str, Any]:
-    """The table of a section; what is rigid has no stiffness to tell."""
-    untold = {name for strain, name in (("extension", "EA"), ("shear", "GA")) if strain in section.rigid}
-    told = {name: getattr(section, name) for name in SECTION.fields if name not in untold}
-    return SECTION.write(told | {"rigid": section.rigid or None}, path)
 
 
 def _shape(rod: Rod, path: str) -> dict[str, Any]:

@@ -1,7 +1,7 @@
-"""The command `dolfinrod`: solve a scene file, say what it holds, verify the models.
+"""The command `dolfinrod`: solve a scene file, say what it holds, verify the models, simulate bundles in a groove.
 
 Exit codes: 0 solved, 1 not converged (what had converged is written), 2 bad input (nothing is written); `verify`:
-1 a number beyond its limit, 130 interrupted.
+1 a number beyond its limit, 130 interrupted; `groove`: 1 a run failed (the others are kept), 130 interrupted.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from dolfinrod.cli import bundles
+from dolfinrod.cli.speech import check_writable, complain, is_first_rank, ranks, readable
 from dolfinrod.output import contents, summary, versions, write
 from dolfinrod.progress import ProgressLine
 from dolfinrod.result import NotConverged
@@ -46,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return options.command(options)
     except SceneError as error:
-        _complain(str(error))
+        complain(str(error))
         return BAD_INPUT
 
 
@@ -59,10 +61,10 @@ def run(options: argparse.Namespace) -> int:
         for key in CONTINUUM_ONLY:
             if getattr(options, key) is not None:
                 raise SceneError(f"--{key} belongs to the continuum model, but --model is {options.model}")
-    _check_writable(options.out)
+    check_writable(options.out)
     # Every model first, files after: input that one of them refuses leaves nothing written.
     outcomes = {model: _solve(model, scene, chosen | _kept_in(options.checkpoint, model, models)) for model in models}
-    if _is_first_rank():
+    if is_first_rank():
         for model, (result, failure) in outcomes.items():
             print(summary(model, result))
             if options.out is not None:
@@ -73,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
             print(f"written to {options.out}{os.sep}")
     failures = {model: failure for model, (_, failure) in outcomes.items() if failure is not None}
     for model, failure in failures.items():
-        _complain(f"{model}: {failure}")
+        complain(f"{model}: {failure}")
     return NOT_CONVERGED if failures else SOLVED
 
 
@@ -90,31 +92,38 @@ def info(options: argparse.Namespace) -> int:
     if options.scene is not None:
         scene, chosen = _read(options.scene)
         lines += ["", *contents(scene), *(f"solve: {key} = {value}" for key, value in chosen.items())]
-    if _is_first_rank():
+    if is_first_rank():
         print("\n".join(lines))
     return SOLVED
 
 
 def verify(options: argparse.Namespace) -> int:
     """Solve the verification cases with both models and report."""
-    if _ranks() > 1:
-        raise SceneError(f"verify measures one process, got {_ranks()} ranks")
-    _check_writable(options.out)
+    if ranks() > 1:
+        raise SceneError(f"verify measures one process, got {ranks()} ranks")
+    check_writable(options.out)
     return verification.verify(options)
 
 
+def groove(options: argparse.Namespace) -> int:
+    """Simulate bundles of fibres in pneumatic grooves, seed by seed, and say what they show."""
+    check_writable(options.out)
+    return bundles.groove(options)
+
+
 def _settle_threads() -> None:
-    """Begin `dolfinrod verify` anew on one thread: times have to mean something, and NumPy has loaded by now."""
-    if sys.argv[1:2] == ["verify"] and "OMP_NUM_THREADS" not in os.environ:
+    """Begin long commands anew on one thread, as NumPy has loaded: times must mean something, ranks share cores."""
+    modules = {"verify": ["verification"], "groove": ["dolfinrod.cli", "groove"]}
+    if sys.argv[1:2] and sys.argv[1] in modules and "OMP_NUM_THREADS" not in os.environ:
         os.environ["OMP_NUM_THREADS"] = "1"
-        os.execv(sys.executable, [sys.executable, "-m", "verification", *sys.argv[2:]])
+        os.execv(sys.executable, [sys.executable, "-m", *modules[sys.argv[1]], *sys.argv[2:]])
 
 
 class _Parser(argparse.ArgumentParser):
     """Complains in one line."""
 
     def error(self, message: str) -> NoReturn:
-        _complain(f"{message} (see {self.prog} --help)")
+        complain(f"{message} (see {self.prog} --help)")
         self.exit(BAD_INPUT)
 
 
@@ -138,6 +147,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     command.set_defaults(command=verify)
     verification.add_options(command)
+    command = commands.add_parser("groove", help="bundles in pneumatic grooves", description=bundles.DESCRIPTION)
+    command.set_defaults(command=groove)
+    bundles.add_options(command)
     return parser
 
 
@@ -153,16 +165,10 @@ def _counts(text: str) -> int | list[int]:
 
 
 def _read(path: Path) -> tuple[Scene, dict[str, Any]]:
-    """Scene and solve options of a file; whatever is wrong with it as SceneError."""
-    try:
+    """Scene and solve options of a file."""
+    with readable(path):
         scene, chosen = toml.load(path)
         _check_options(chosen)
-    except OSError as error:
-        raise SceneError(f"{path} cannot be read: {error.strerror}") from error
-    except SceneError as error:
-        raise SceneError(f"{path}: {error}") from error
-    except ValueError as error:  # no file can have such a name
-        raise SceneError(f"{path} cannot be read: {error}") from error
     return scene, chosen
 
 
@@ -176,19 +182,10 @@ def _check_options(chosen: Mapping[str, Any]) -> None:
             raise SceneError(f"solve.kinematics must be {' or '.join(KINEMATICS)}, got {value!r}")
 
 
-def _check_writable(folder: Path | None) -> None:
-    """Find out before a long solve, not after it."""
-    if folder is None:
-        return
-    ground = next(place for place in (folder, *folder.absolute().parents) if place.exists())
-    if not (ground.is_dir() and os.access(ground, os.W_OK)):
-        raise SceneError(f"--out {folder} cannot be written: {ground} is no folder with permission to write")
-
-
 def _solve(model: str, scene: Scene, options: Mapping[str, Any]) -> tuple[Result, NotConverged | None]:
     """Result of one model, and the failure where the end was not reached."""
     unit = "s" if isinstance(scene.motion, Dynamic) else ""
-    line = ProgressLine(sys.stderr, name=model, unit=unit) if _is_first_rank() and sys.stderr.isatty() else None
+    line = ProgressLine(sys.stderr, name=model, unit=unit) if is_first_rank() and sys.stderr.isatty() else None
     solver = _continuum if model == "continuum" else _discrete
     try:
         return solver(scene, options, line), None
@@ -222,26 +219,3 @@ def _petsc() -> dict[str, str]:
     version = ".".join(str(part) for part in PETSc.Sys.getVersion())
     library = MPI.Get_library_version().split(",")[0].rstrip("\0\n")
     return {"PETSc": f"{version} ({PETSc.ScalarType.__name__})", "MPI": library}
-
-
-def _ranks() -> int:
-    from mpi4py import MPI
-
-    return MPI.COMM_WORLD.size
-
-
-def _is_first_rank() -> bool:
-    from mpi4py import MPI
-
-    return MPI.COMM_WORLD.rank == 0
-
-
-def _complain(message: str) -> None:
-    """One line on stderr, from one rank; what would steer the terminal is escaped."""
-    if _is_first_rank():
-        line = " ".join(message.split())
-        print("dolfinrod:", "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line), file=sys.stderr)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
