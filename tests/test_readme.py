@@ -144,3 +144,16 @@ def test_twist_example_prints_what_its_comments_say():
     of_the_bundle, of_two = ran("How much it twists")[0].splitlines()
     assert np.array(of_the_bundle.split(), dtype=float) == pytest.approx([55.0, 55.0], abs=2e-3)
     assert float(of_two) == pytest.approx(2.2, abs=1e-3)
+
+
+@pytest.mark.serial
+def test_groove_example_prints_what_its_comments_say(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    printed, names = ran("Groove scenarios")
+    first, twists = printed.splitlines()
+    found = names["found"]
+    numbers = [found.winding[0, 1], found.T_pair, found.along.width.mean() * 1e3]
+    assert np.array(re.findall(NUMBER, first), dtype=float) == pytest.approx(numbers, abs=6e-4)
+    assert len(re.findall(NUMBER, twists)) == len(names["runs"].finished) == 4
+    assert names["runs"].runs[1].T_pair == pytest.approx(found.T_pair)
+    assert len((tmp_path / "runs" / "runs.csv").read_text(encoding="utf-8").splitlines()) == 5
