@@ -10,6 +10,7 @@ from verification import (
     bundletrials,
     contactwork,
     eigencases,
+    groovescenariotrials,
     hardcases,
     motiontrials,
     stepping,
@@ -48,6 +49,7 @@ def names() -> tuple[str, ...]:
         *contactwork.names(),
         *twisttrials.names(),
         *MEETINGS.names(),
+        *groovescenariotrials.names(),
     )
 
 
@@ -91,6 +93,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from contactwork.listing(asked)
     yield from twisttrials.listing(asked)
     yield from MEETINGS.listing(asked)
+    yield from groovescenariotrials.listing(asked)
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -122,6 +125,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from contactwork.units(asked, quick=quick)
     yield from twisttrials.units(asked)
     yield from MEETINGS.units(asked, quick=quick)
+    yield from groovescenariotrials.units(asked, quick=quick)
 
 
 def _critical(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:

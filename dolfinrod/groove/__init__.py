@@ -15,9 +15,11 @@ from dolfinrod.groove.bundle import Bundle
 from dolfinrod.groove.comparison import Comparison, Measured, Verdict, compare, measured, verdict
 from dolfinrod.groove.core import FixedCore, RollingCore
 from dolfinrod.groove.course import Course, course
+from dolfinrod.groove.delivery import delivery
 from dolfinrod.groove.ends import Ends
 from dolfinrod.groove.ensemble import Ensemble, Progress, ensemble
 from dolfinrod.groove.measures import Along, Measures, measure
+from dolfinrod.groove.pressing import Pressing
 from dolfinrod.groove.runs import Folder, Run
 from dolfinrod.groove.scenario import Scenario
 from dolfinrod.groove.sections import CrossSection
@@ -42,6 +44,7 @@ __all__ = [
     "LineSink",
     "Measured",
     "Measures",
+    "Pressing",
     "Progress",
     "RollingCore",
     "Run",
@@ -51,6 +54,7 @@ __all__ = [
     "Yarn",
     "compare",
     "course",
+    "delivery",
     "ensemble",
     "measure",
     "measured",

@@ -15,6 +15,7 @@ from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
 from verification.groovebench import LIMIT, GrooveSweep
 from verification.grooveprofile import AGREES, SideBySide
+from verification.groovescenarioclaims import Gathered
 from verification.hard import HardRow, Share
 from verification.hardcontact import MOST_ITERATIONS, ContactRow
 from verification.hardmotion import MotionRow
@@ -173,7 +174,7 @@ def _(row: DriftStudy) -> str:
 
 
 @sentence.register
-def _(row: BundleStudy | BundleRanks) -> str:
+def _(row: BundleStudy | BundleRanks | Gathered) -> str:
     return row.words
 
 
