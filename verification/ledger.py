@@ -29,7 +29,10 @@ from verification.drift import DriftStudy
 from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
 from verification.groovebench import GroovePoint, GrooveSweep
+from verification.groovepaper import PaperRun
 from verification.grooveprofile import GrooveProfile, SideBySide
+from verification.groovescenario import GrooveEnsemble
+from verification.groovescenariobeside import GrooveImage, GrooveModels
 from verification.hard import HardRow
 from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
@@ -56,8 +59,9 @@ __all__ = ["Ledger", "Unit", "source_hash"]
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
 Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | RankRow | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
+Gathered = GrooveEnsemble | GrooveImage | GrooveModels | PaperRun
 Other = Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study | TwistStudy
-Row = Trial | Moved | Touched | Other
+Row = Trial | Moved | Touched | Gathered | Other
 PARTS = (
     Attempt,
     BundleCost,
@@ -88,7 +92,7 @@ class Unit:
             "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
             "frequency", "drift", "bundle", "ranks",
             "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map",
-            "hard contact", "meeting" or "twist".
+            "hard contact", "meeting", "twist" or "groove scenario".
         words: What is solved, for people.
         parameters: What sets it apart from others of its topic; strings and numbers.
         work: Solves it; returns a row, or rows, for the report.

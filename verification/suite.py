@@ -17,6 +17,7 @@ from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
 from verification.groovebench import GrooveSweep
 from verification.grooveprofile import SideBySide
+from verification.groovescenarioclaims import Gathered, with_claims
 from verification.hard import HardRow, Share, shares
 from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
@@ -46,7 +47,7 @@ __all__ = ["Missed", "Report", "report"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
 Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | RankRow | TopStudy
-Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
+Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide | Gathered
 Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow | TwistStudy
 # Fields of the report that are the rows of a topic, as they come.
 AS_FOUND = {
@@ -115,6 +116,7 @@ class Report:
         hard_contacts: What contact stumbles over.
         twists: How twist is measured.
         meetings: Rods on rods on finer and finer levels.
+        scenarios: Bundles in the groove: ensembles and what they show, models, mirror images, the paper's readings.
         contenders: Other people's solvers and our models on one problem.
         jobs: Units that were done at once; with more than one, times are noisier.
         spent: What the suite itself took.
@@ -159,6 +161,7 @@ class Report:
     hard_contacts: tuple[ContactRow, ...] = ()
     twists: tuple[TwistStudy, ...] = ()
     meetings: tuple[ContactStudy, ...] = ()
+    scenarios: tuple[Gathered, ...] = ()
 
     def compile_ms(self, model: str) -> float | None:
         """What a model spent on making or loading its forms when it was first used [ms]."""
@@ -178,7 +181,7 @@ class Report:
         for rows in (*kinds, self.hard, self.shares, self.largest, self.limits, self.maps, self.motions):
             missed += [row for row in rows if not row.holds]
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
-        missed += [row for row in (*moved, *self.bundles, *self.ranks) if not row.holds]
+        missed += [row for row in (*moved, *self.bundles, *self.ranks, *self.scenarios) if not row.holds]
         touched: tuple[Touched, ...] = (*self.touching, *self.grooves, *self.beside, *self.contact_maps)
         missed += [row for row in (*touched, *self.hard_contacts, *self.meetings, *self.twists) if not row.holds]
         missed += [row for row in self.fewest if row.missed]
@@ -219,4 +222,5 @@ def report(rows: dict[str, Any], names: Iterable[str], machine: Machine, *, quic
         fibres=rows.get("paper fibre", ()),
         paces=rows.get("pace", ()),
         contenders=rows.get("peer", ()),
+        scenarios=with_claims(rows.get("groove scenario", ())),
     )

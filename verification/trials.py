@@ -10,6 +10,7 @@ from verification import (
     bundletrials,
     contactwork,
     eigencases,
+    groovescenariotrials,
     hardcases,
     motiontrials,
     ranktrials,
@@ -50,6 +51,7 @@ def names() -> tuple[str, ...]:
         *contactwork.names(),
         *twisttrials.names(),
         *MEETINGS.names(),
+        *groovescenariotrials.names(),
     )
 
 
@@ -94,6 +96,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from contactwork.listing(asked)
     yield from twisttrials.listing(asked)
     yield from MEETINGS.listing(asked)
+    yield from groovescenariotrials.listing(asked)
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -126,6 +129,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from contactwork.units(asked, quick=quick)
     yield from twisttrials.units(asked)
     yield from MEETINGS.units(asked, quick=quick)
+    yield from groovescenariotrials.units(asked, quick=quick)
 
 
 def _critical(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:

@@ -17,10 +17,12 @@ from dolfinrod.groove.clock import Progress
 from dolfinrod.groove.comparison import Comparison, Measured, Verdict, compare, measured, verdict
 from dolfinrod.groove.core import FixedCore, RollingCore
 from dolfinrod.groove.course import Course, course
+from dolfinrod.groove.delivery import delivery
 from dolfinrod.groove.ends import Ends
 from dolfinrod.groove.ensemble import Ensemble, ensemble
 from dolfinrod.groove.measures import Along, Measures, measure
 from dolfinrod.groove.parameters import Parameter, parameters
+from dolfinrod.groove.pressing import Pressing
 from dolfinrod.groove.rows import rows, write_rows
 from dolfinrod.groove.runs import Folder, Run
 from dolfinrod.groove.scenario import Scenario
@@ -48,6 +50,7 @@ __all__ = [
     "Measured",
     "Measures",
     "Parameter",
+    "Pressing",
     "Progress",
     "RollingCore",
     "Run",
@@ -57,6 +60,7 @@ __all__ = [
     "Yarn",
     "compare",
     "course",
+    "delivery",
     "ensemble",
     "grid",
     "measure",

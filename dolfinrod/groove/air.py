@@ -75,8 +75,11 @@ class LineSink:
         # Rods end where the suction does but for round-off, on either side of it.
         slack = 1e-9 * self.pitch
         on = (x[:, 0] >= self.between[0] - slack) & (x[:, 0] <= self.between[1] + slack)
-        grown = min(t / self.ramp, 1.0) if self.ramp > 0.0 else 1.0
         u = np.empty_like(x)
         u[:, 0] = -self.backward
         u[:, 1:] = -(self.speed * self.radius * swell / ρ2)[:, None] * away
-        return np.asarray((grown * on)[:, None] * u)
+        return np.asarray((self.grown(t) * on)[:, None] * u)
+
+    def grown(self, t: float) -> float:
+        """Part of the flow that there is at a time [s]."""
+        return min(t / self.ramp, 1.0) if self.ramp > 0.0 else 1.0

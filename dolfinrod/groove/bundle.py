@@ -86,14 +86,21 @@ class Bundle:
         )
         return places + np.random.default_rng(seed).normal(0.0, self.noise, (fibres, 2))
 
-    def rods(self, starts: NDArray[np.float64]) -> tuple[Rod, ...]:
+    def rods(self, starts: NDArray[np.float64], roller: float | None = None) -> tuple[Rod, ...]:
         """The fibres, free of stress.
 
         Args:
             starts: y and z at A, shape (n, 2) [m].
+            roller: Radius of the roller around which they lie; None: they are straight [m].
 
         Returns:
             Rods, the tail included.
         """
+        if roller is not None:
+            angle, down = self.length / roller, (0.0, -1.0, 0.0)
+            return tuple(
+                Rod.arc(roller + float(y), angle, self.section, (0.0, float(y), float(z)), towards=down)
+                for y, z in starts
+            )
         whole = self.tail + self.length
         return tuple(Rod.straight(whole, self.section, (-self.tail, float(y), float(z))) for y, z in starts)

@@ -72,7 +72,7 @@ def _winding(result: Result, scenario: Scenario, i: int) -> tuple[float, float]:
     if scenario.fibres == 1:
         return 0.0, 0.0
     try:
-        found = pairs(centrelines(result, i, rods=range(scenario.fibres)))
+        found = pairs([scenario.unrolled(r) for r in centrelines(result, i, rods=range(scenario.fibres))])
     except ValueError:
         return np.nan, np.nan
     return found.T, float(np.abs(found.turns[np.triu_indices(scenario.fibres, 1)]).mean())

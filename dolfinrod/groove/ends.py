@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import cos, sin
 
 from dolfinrod.groove.bundle import Bundle
 from dolfinrod.groove.limits import known, limited, whole
@@ -42,7 +43,8 @@ class Ends:
         speed: Of the fibres along X, and of the roller with them, 0 to 10 m/s: 0 while they gather [P: v = 0]; that of
             the machine is 0.1716 [C from P: 7000 r/min at 680 T/m].
         leading: Numbers of fibres whose leading end has not reached B yet: it is free, nothing draws it.
-        trailing: Numbers of fibres whose trailing end has left A: it is free, and the nip at B holds the other along X.
+        trailing: Numbers of fibres whose trailing end has left A: it is free, and the nip at B holds the other along X,
+            or draws it along at that speed.
 
     Raises:
         SceneError: A number out of its range, a fibre that is both.
@@ -90,13 +92,14 @@ class Ends:
         for rod in range(fibres):
             places: tuple[Place, ...] = ("start", bundle.tail) if bundle.tail else ("start",)
             found += [] if rod + 1 in self.trailing else [self._nip(at, rod, t_end) for at in places]
-            found += self._out(rod)
+            found += self._out(rod, t_end)
         return tuple(found)
 
-    def loads(self, fibres: int) -> tuple[Load, ...]:
-        """The tension at B, full from the start."""
+    def loads(self, fibres: int, angle: float = 0.0) -> tuple[Load, ...]:
+        """The tension at B, full from the start, along the groove, which has gone around a roller by an angle [rad]."""
         drawn = [k for k in range(fibres) if k + 1 not in (*self.leading, *self.trailing)] if self.tension else []
-        return tuple(PointForce((self.tension, 0.0, 0.0), at="end", rod=k, history=Steady()) for k in drawn)
+        pull = (self.tension * cos(angle), -self.tension * sin(angle), 0.0)
+        return tuple(PointForce(pull, at="end", rod=k, history=Steady()) for k in drawn)
 
     def velocities(self) -> tuple[Velocity, ...]:
         """How the fibres move at the start."""
@@ -107,13 +110,15 @@ class Ends:
             return Clamp(at, rod)
         return Prescribed(at, (self.speed * t_end, 0.0, 0.0), (0.0, 0.0, 0.0), rod=rod)
 
-    def _out(self, rod: int) -> list[Support]:
+    def _out(self, rod: int, t_end: float) -> list[Support]:
         free = set(TURNS if self.exit == "held" else SIDEWAYS)
         if rod + 1 in self.leading:
             return []
-        if rod + 1 not in self.trailing:
-            return [Guide("end", free | {"x"}, rod)] if self.exit == "held" else []
-        return [Guide("end", free, rod)]
+        if rod + 1 in self.trailing and not self.speed:
+            return [Guide("end", free, rod)]
+        drawn = (self.speed * t_end, None, None)
+        found: list[Support] = [Prescribed("end", drawn, rod=rod)] if rod + 1 in self.trailing else []
+        return [Guide("end", free | {"x"}, rod), *found] if self.exit == "held" else found
 
 
 def _numbers(value: object, field: str) -> tuple[int, ...]:

@@ -100,7 +100,7 @@ def measure(result: Result, scenario: Scenario, i: int = -1, *, stations: int = 
         ValueError: Fibres that meet or are given by too few points, as `dolfinrod.twist` says.
     """
     numbers = range(scenario.fibres)
-    curves = centrelines(result, i, rods=numbers)
+    curves = tuple(scenario.unrolled(r) for r in centrelines(result, i, rods=numbers))
     several, onward = len(curves) > 1, all(bool((np.diff(r[:, 0]) > 0.0).all()) for r in curves)
     wound = pairs(curves) if several else None
     crossed = crossings(curves) if several and onward else ()
@@ -126,7 +126,7 @@ def _along(result: Result, scenario: Scenario, i: int, curves: Sequence[Array], 
     yz = np.stack([[np.interp(inner, r[:, 0], r[:, c]) for c in (1, 2)] for r in curves])
     z, off = yz[:, 1], yz - yz.mean(axis=0)
     rods = result.rods[: scenario.fibres]
-    pull = [np.interp(inner, h.r[i, :, 0], h.n[i, :, 0]) for h in rods]
+    pull = [np.interp(inner, scenario.unrolled(h.r[i])[:, 0], h.n[i, :, 0]) for h in rods]
 
     def means(values: Array) -> Array:
         return np.asarray(values.reshape(stations, -1).mean(axis=1))
@@ -147,7 +147,7 @@ def _walls(result: Result, scenario: Scenario, i: int, X: Array) -> Array:
     for history in result.contacts:
         for touching, rod in zip(history.rods[: scenario.fibres], result.rods, strict=False):
             if touching is not None:
-                at = np.interp(touching.s, rod.s, rod.r[i, :, 0])
+                at = np.interp(touching.s, rod.s, scenario.unrolled(rod.r[i])[:, 0])
                 found += np.histogram(at, X, weights=touching.pressure[i] * touching.share)[0]
     return np.asarray(found / np.diff(X))
 
@@ -159,5 +159,5 @@ def _meetings(result: Result, scenario: Scenario, i: int, X: Array) -> Array:
         met = history.times[i]
         among = (met.rod_a < scenario.fibres) & (met.rod_b < scenario.fibres)
         pressed = np.einsum("ni,ni->n", met.force, met.normal)[among]
-        found += np.histogram(met.point[among, 0], X, weights=pressed)[0]
+        found += np.histogram(scenario.unrolled(met.point[among])[:, 0], X, weights=pressed)[0]
     return np.asarray(found / np.diff(X))

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from dolfinrod.groove.air import LineSink
 from dolfinrod.groove.bundle import Bundle
 from dolfinrod.groove.core import AnyCore, FixedCore, RollingCore
 from dolfinrod.groove.ends import MOST_FIBRES, Ends
+from dolfinrod.groove.flow import check, flowing
 from dolfinrod.groove.limits import known, limited, whole
+from dolfinrod.groove.pressing import Pressing
+from dolfinrod.groove.roller import refuse_straight, unrolled
 from dolfinrod.groove.sections import KINDS, CrossSection
 from dolfinrod.scene import (
     Air,
@@ -31,7 +34,12 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from dolfinrod.result import Result, StepLog
+
+    Array = NDArray[np.float64]
 
 __all__ = ["MODELS", "Scenario"]
 
@@ -44,6 +52,7 @@ PARTS: dict[str, tuple[type, ...]] = {
     "ends": (Ends,),
     "core": (FixedCore, RollingCore, type(None)),
     "air": (LineSink, type(None)),
+    "pressing": (Pressing, type(None)),
     "law": (Penalty, SmoothPenalty),
     "wall_friction": (Coulomb, CreepingCoulomb, type(None)),
     "fibre_friction": (Coulomb, CreepingCoulomb, type(None)),
@@ -69,6 +78,9 @@ class Scenario:
         ends: What holds them at A and B [I].
         core: A cylinder in the middle: at rest [P, as "central cylinder"; its size I], rolling [I], or None.
         air: The flow, of air at 20 °C; None: none, as in the equations of the paper [L, I].
+        pressing: What of the suction presses fibres onto the walls, in addition; None: nothing [I], as in the paper.
+        roller: Radius of the roller around which the groove goes, 5e-3 to 1 m; None: it is unrolled and straight [I]; a
+            roller of 50 mm has 0.025 m. Then there is no core, no tail, no speed, and fibres are free at B.
         law: How walls, core and fibres push back; Penalty.tight() [I], the paper's numbers in `paper`.
         wall_friction: Of fibres and a rolling core on the groove; Coulomb(0.64) [P], 0.1 to 0.9 make sense.
         fibre_friction: Of fibres on fibres and on the core; Coulomb(0.3) [I], no source for ramie was found.
@@ -92,6 +104,8 @@ class Scenario:
     ends: Ends = field(default_factory=Ends)
     core: AnyCore | None = field(default_factory=FixedCore)
     air: LineSink | None = field(default_factory=LineSink)
+    pressing: Pressing | None = None
+    roller: float | None = None
     law: Penalty | SmoothPenalty = field(default_factory=Penalty.tight)
     wall_friction: Coulomb | CreepingCoulomb | None = field(default_factory=lambda: Coulomb(0.64))
     fibre_friction: Coulomb | CreepingCoulomb | None = field(default_factory=lambda: Coulomb(0.3))
@@ -112,6 +126,7 @@ class Scenario:
         assign(
             self,
             kind=known(self.kind, "Scenario.kind", KINDS),
+            roller=None if self.roller is None else limited(self.roller, "Scenario.roller", "m", 5e-3, 1.0),
             fibres=whole(self.fibres, "Scenario.fibres", 1, MOST_FIBRES),
             seed=whole(self.seed, "Scenario.seed", 0, 2**32 - 1),
             t_end=limited(self.t_end, "Scenario.t_end", "s", 1e-6, 10.0),
@@ -120,6 +135,8 @@ class Scenario:
             elements=whole(self.elements, "Scenario.elements", 2, 10_000),
         )
         self.ends.check(self.fibres)
+        check(self)
+        refuse_straight(self)
         if isinstance(self.core, FixedCore):
             self.section.seat(self.core.radius)
 
@@ -135,12 +152,16 @@ class Scenario:
         """Of the groove."""
         return CrossSection.of(self.kind) if self.groove is None else self.groove
 
+    def unrolled(self, r: Array) -> Array:
+        """Points in space as those of the straight groove, X along it, Y out of it, Z across, shape (n, 3) [m]."""
+        return r if self.roller is None else unrolled(r, self.roller)
+
     def scene(self) -> Scene:
         """The scenario as a problem that either model solves: fibres first, a rolling core last."""
         starts = self.bundle.starts(self.fibres, self.seed, self.kind)
         if self.mirrored:
             starts[:, 1] *= -1.0
-        rods, core, advance = self.bundle.rods(starts), self.core, self.ends.speed * self.t_end
+        rods, core, advance = self.bundle.rods(starts, self.roller), self.core, self.ends.speed * self.t_end
         supports = self.ends.supports(self.fibres, self.bundle, self.t_end)
         if isinstance(core, RollingCore):
             rods += (core.rod(self.section, self.kind, self.bundle, self.law.g_0, mirrored=self.mirrored),)
@@ -148,9 +169,9 @@ class Scenario:
         return Scene(
             rods=rods,
             supports=supports,
-            loads=self.ends.loads(self.fibres),
+            loads=self.ends.loads(self.fibres, self.bundle.length / self.roller if self.roller else 0.0),
             contacts=self._contacts(),
-            air=None if self.air is None else Air(self._flow(self.air)),
+            air=None if self.air is None else Air(flowing(self, self.air)),
             motion=Dynamic(t_end=self.t_end, dt=self.dt, output=min(self.output, self.t_end)),
             velocities=self.ends.velocities(),
         )
@@ -199,7 +220,7 @@ class Scenario:
         motion = WallMotion(velocity=(self.ends.speed, 0.0, 0.0)) if self.ends.speed else None
         found: list[Contact | RodContact] = [
             Contact(face, self.law, self.wall_friction)
-            for face in self.section.surfaces(motion, mirrored=self.mirrored)
+            for face in self.section.surfaces(motion, mirrored=self.mirrored, roller=self.roller)
         ]
         if isinstance(self.core, FixedCore):
             cylinder = self.core.surface(self.section, motion, mirrored=self.mirrored)
@@ -209,9 +230,3 @@ class Scenario:
                 raise SceneError("must be Coulomb or None where fibres touch", field="Scenario.fibre_friction")
             found.append(RodContact(self.law, self.fibre_friction))
         return tuple(found)
-
-    def _flow(self, air: LineSink) -> LineSink:
-        """The sink along the bottom; the nip keeps air from what is before A."""
-        (y, z), sign = self.section.bottom, -1.0 if self.mirrored else 1.0
-        begin = max(air.between[0], 0.0) if self.bundle.tail else air.between[0]
-        return replace(air, bottom=(y, sign * z), between=(begin, air.between[1]))

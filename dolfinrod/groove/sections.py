@@ -84,19 +84,20 @@ class CrossSection:
         z, y = self._corner()[1]
         return float(y), float(z)
 
-    def surfaces(self, motion: WallMotion | None, *, mirrored: bool) -> tuple[Groove, ...]:
+    def surfaces(self, motion: WallMotion | None, *, mirrored: bool, roller: float | None = None) -> tuple[Groove, ...]:
         """What fibres touch: a surface a face, or one with its fillet.
 
         Args:
             motion: How the roller moves on.
             mirrored: Whether left is right.
+            roller: Radius of the roller around which the groove goes; None: it is straight [m].
 
         Returns:
             The surfaces, from the left to the right.
         """
-        groove = self._groove()
+        groove = replace(self._groove(), roller=roller)
         if mirrored:
-            groove = Groove([(-z, y) for z, y in reversed(list(groove.profile))], fillet=self.fillet)
+            groove = replace(groove, profile=[(-z, y) for z, y in reversed(list(groove.profile))])
         faces = (groove,) if self.fillet > 0.0 else groove.faces()
         return tuple(replace(face, motion=motion) for face in faces)
 

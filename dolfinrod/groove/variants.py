@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -20,7 +21,8 @@ VARIANTS = {
     "S-leading": "the leading end of the edge fibre is free",
     "S-trailing": "the trailing end of the edge fibre is free",
     "pinned": "fibres held sideways at B, too: net winding cannot change",
-    "transport": "fibres and roller go on at the speed of the machine",
+    "transport": "fibres and roller go on at the speed of the machine, the nip at A with them",
+    "transit": "the nip at A has let go of the fibres: they and the roller go on at the speed of the machine",
     "mirrored": "left is right",
 }
 # Of delivery [m/s]: 7000 r/min at 680 turns/m.
@@ -40,18 +42,24 @@ def variant(scenario: Scenario, name: str) -> Scenario:
     Raises:
         SceneError: An unknown name, or what cannot be combined.
     """
-    edge, ends = scenario.fibres, scenario.ends
-    changes: dict[str, dict[str, Any]] = {
-        "L0": {**_rubbing(scenario, "centreline"), "core": FixedCore()},
-        "L1": {**_rubbing(scenario, "surface"), "core": FixedCore()},
-        "L2": {**_rubbing(scenario, "surface"), "core": RollingCore()},
-        "S-leading": {"ends": replace(ends, leading=(*ends.leading, edge))},
-        "S-trailing": {"ends": replace(ends, trailing=(*ends.trailing, edge))},
-        "pinned": {"ends": replace(ends, exit="held")},
-        "transport": {"ends": replace(ends, speed=DELIVERY)},
-        "mirrored": {"mirrored": not scenario.mirrored},
+    known(name, "variant", tuple(VARIANTS))
+    return replace(scenario, **_changes(scenario)[name]())
+
+
+def _changes(scenario: Scenario) -> dict[str, Callable[[], dict[str, Any]]]:
+    """Fields that each variant changes, made only where it is asked for: not all can be combined."""
+    n, ends = scenario.fibres, scenario.ends
+    return {
+        "L0": lambda: {**_rubbing(scenario, "centreline"), "core": FixedCore()},
+        "L1": lambda: {**_rubbing(scenario, "surface"), "core": FixedCore()},
+        "L2": lambda: {**_rubbing(scenario, "surface"), "core": RollingCore()},
+        "S-leading": lambda: {"ends": replace(ends, leading=(*ends.leading, n))},
+        "S-trailing": lambda: {"ends": replace(ends, trailing=(*ends.trailing, n))},
+        "pinned": lambda: {"ends": replace(ends, exit="held")},
+        "transport": lambda: {"ends": replace(ends, speed=DELIVERY)},
+        "transit": lambda: {"ends": replace(ends, speed=DELIVERY, leading=(), trailing=range(1, n + 1))},
+        "mirrored": lambda: {"mirrored": not scenario.mirrored},
     }
-    return replace(scenario, **changes[known(name, "variant", tuple(VARIANTS))])
 
 
 def varied(scenario: Scenario, name: str, value: Any) -> Scenario:

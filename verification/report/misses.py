@@ -15,6 +15,7 @@ from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
 from verification.groovebench import LIMIT, GrooveSweep
 from verification.grooveprofile import AGREES, SideBySide
+from verification.groovescenarioclaims import Gathered
 from verification.hard import HardRow, Share
 from verification.hardcontact import MOST_ITERATIONS, ContactRow
 from verification.hardmotion import MotionRow
@@ -174,7 +175,7 @@ def _(row: DriftStudy) -> str:
 
 
 @sentence.register
-def _(row: BundleStudy | BundleRanks | RankRow) -> str:
+def _(row: BundleStudy | BundleRanks | Gathered | RankRow) -> str:
     return row.words
 
 

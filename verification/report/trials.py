@@ -10,6 +10,8 @@ from verification.report import (
     contact,
     contactmaps,
     groove,
+    groovescenario,
+    groovescenariopaper,
     hardcontact,
     meetings,
     motion,
@@ -48,6 +50,8 @@ TITLES = {
     "hard-contact": hardcontact.TITLE,
     "winding": twist.TITLE,
     "meetings": meetings.TITLE,
+    "groove-scenarios": groovescenario.TITLE,
+    "groove-paper": groovescenariopaper.TITLE,
 }
 WORDS = {
     "eigen": "Critical loads with all deformation before them, and natural frequencies, against characteristic "
@@ -89,6 +93,8 @@ WORDS = {
     "hard-contact": hardcontact.WORDS,
     "winding": twist.WORDS,
     "meetings": meetings.WORDS,
+    "groove-scenarios": groovescenario.WORDS,
+    "groove-paper": groovescenariopaper.WORDS,
 }
 
 
@@ -114,6 +120,8 @@ def contents(report: Report) -> dict[str, str]:
     parts["hard-contact"] = hardcontact.hard_contacts(report.hard_contacts) if report.hard_contacts else ""
     parts["winding"] = twist.twists(report.twists) if report.twists else ""
     parts["meetings"] = meetings.meeting_cases(report.meetings) if report.meetings else ""
+    parts["groove-scenarios"] = groovescenario.scenarios(report.scenarios)
+    parts["groove-paper"] = groovescenariopaper.paper(report.scenarios)
     return {key: text for key, text in parts.items() if text}
 
 
@@ -150,4 +158,5 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
             "measures of twist: exact, or with the order of theory and right to the digits trusted",
         ),
         ("meetings", report.meetings, "ways to take rods on rods: answers within their limits, orders as stated"),
+        *groovescenario.outcomes(report.scenarios),
     )

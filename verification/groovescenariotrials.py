@@ -1,0 +1,105 @@
+"""Scenarios of the groove as units of work: ensembles, both models, the mirror image, the paper as printed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+
+from dolfinrod.groove import Scenario
+from dolfinrod.groove.paper import MESHES, READINGS
+from dolfinrod.groove.scenario import MODELS
+from verification.groovepaper import as_printed
+from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, gathered
+from verification.groovescenariobeside import brief, by_both, with_image
+from verification.ledger import Unit
+
+__all__ = ["PAPER", "SCENARIOS", "listing", "names", "units"]
+
+# Chosen like families; an ensemble as "groove-scenarios:NAME".
+SCENARIOS, PAPER = "groove-scenarios", "groove-paper"
+BESIDE, IMAGE = f"{SCENARIOS}:models", f"{SCENARIOS}:image"
+# Of the paper, in which its fibres fall onto the walls.
+STEPS, QUICK_STEPS = 400, 3
+# Until fibres touch one another, and a little on; states are stored as often as that takes to see [s].
+UNTIL, STORED = 1e-3, 1e-5
+
+
+def names() -> tuple[str, ...]:
+    """Whatever may be asked for by name."""
+    return (SCENARIOS, *map(asked_as, SETTINGS), BESIDE, IMAGE, PAPER)
+
+
+def asked_as(one: Setting) -> str:
+    """Under which an ensemble is asked for."""
+    return f"{SCENARIOS}:{one.name}"
+
+
+def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """Name and title of what is asked for, members indented; others are passed over."""
+    wanted = set(asked)
+    members = {asked_as(one): one.words for one in SETTINGS}
+    members |= {BESIDE: "one bundle by both models", IMAGE: "a bundle and its mirror image"}
+    chosen = {name: words for name, words in members.items() if {SCENARIOS, name} & wanted}
+    if chosen:
+        yield SCENARIOS, "bundles in the groove: what they should show"
+    yield from ((f"  {name}", words) for name, words in chosen.items())
+    if PAPER in wanted:
+        yield PAPER, "the paper's groove as printed, in each reading of its units"
+
+
+def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
+    """What is to be done.
+
+    Args:
+        asked: Out of `names()`; others are passed over.
+        quick: A blink of two fibres each, which shows that all runs and nothing more.
+
+    Yields:
+        Units in the order of the report.
+    """
+    for one in SETTINGS:
+        if {SCENARIOS, asked_as(one)} & set(asked) and (one.quick or not quick):
+            posed = one.hurried() if quick else one
+            key = (
+                "ensemble",
+                one.name,
+                posed.seeds,
+                posed.scenario.fibres,
+                posed.scenario.elements,
+                posed.scenario.t_end,
+            )
+            yield Unit("groove scenario", f"Bundles: {one.words}", key, partial(gathered, posed))
+    yield from _alone(set(asked), quick)
+    if PAPER in asked:
+        yield from _paper(QUICK_STEPS if quick else STEPS, quick=quick)
+
+
+def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:
+    """Single bundles: by both models, and beside their images."""
+    for scenario in (LATERAL, INTERMEDIATE) if {SCENARIOS, BESIDE} & asked else ():
+        posed = brief(scenario) if quick else scenario
+        words = f"One bundle by both models: {posed.kind}"
+        yield Unit("groove scenario", words, ("models", posed.kind, posed.fibres, posed.t_end), partial(by_both, posed))
+    for model in MODELS if {SCENARIOS, IMAGE} & asked else ():
+        posed = brief(LATERAL) if quick else _short(LATERAL)
+        words = f"A bundle and its mirror image: {model}"
+        yield Unit(
+            "groove scenario", words, ("image", model, posed.fibres, posed.t_end), partial(with_image, posed, model)
+        )
+
+
+def _short(scenario: Scenario) -> Scenario:
+    return replace(scenario, t_end=UNTIL, output=STORED)
+
+
+def _paper(steps: int, *, quick: bool) -> Iterator[Unit]:
+    """Every reading of units and meshes, without air and with it, by both models."""
+    for mesh in ("zone",) if quick else MESHES:
+        for reading in READINGS:
+            for air in (False, True):
+                for model in MODELS:
+                    flow = "with air" if air else "as printed"
+                    work = partial(as_printed, reading, mesh, model, steps, air=air)
+                    words = f"The paper's groove: {reading}, {mesh}, {flow}, {model}"
+                    yield Unit("groove scenario", words, ("paper", reading, mesh, flow, model, steps), work)
