@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.products import Applied
 from discrete.unknowns import AXIAL, N_NODE, SPIN, X
 
 if TYPE_CHECKING:
@@ -45,27 +44,16 @@ class Links:
     def change(self, d: Array) -> Array:
         """Change of all forces and moments with increments of all nodes, shape (n_nodes, 7) both."""
         change = np.zeros_like(d)
-        dx, turn = d[:, X] * self.units.length, d[:, SPIN]
+        dx, turn = d[:, X] * self.units.length, np.ascontiguousarray(d[:, SPIN])
         if self.turning is not None:
             turn = np.matmul(self.turning, turn[:, :, None])[:, :, 0]
-        for force_x, *rubbing in self._operators:
-            change[:, X] += force_x(dx)
-            if rubbing:
-                force_turn, moment_x, moment_turn = rubbing
-                change[:, X] += force_turn(turn)
-                change[:, SPIN] += moment_x(dx) + moment_turn(turn)
+        for coupling in self.couplings:
+            force, moment = coupling.times(dx, turn)
+            change[:, X] += force
+            change[:, SPIN] += moment
         change[:, X] /= self.units.force
         change[:, SPIN] /= self.units.moment
         return change
-
-    @cached_property
-    def _operators(self) -> list[tuple[Applied, ...]]:
-        """What each meeting answers: of forces to places, and where anything rubs to turns, then of moments."""
-        rubs = self.turning is not None
-        every = [
-            (c, (c.force_x, c.force_turn, c.moment_x, c.moment_turn) if rubs else (c.force_x,)) for c in self.couplings
-        ]
-        return [tuple(Applied(c, part) for part in parts if part is not None) for c, parts in every]
 
     @cached_property
     def nodal(self) -> tuple[Indices, Array]:

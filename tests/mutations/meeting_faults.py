@@ -11,21 +11,21 @@ from discrete.links import Links
 from discrete.meeting import Encounters
 from dolfinrod.continuum import pairs
 from dolfinrod.continuum.pairs import Pairs
-from dolfinrod.scene.meeting import acting, facing, meeting, neighbours, pressed, slipping, spots
+from dolfinrod.scene.meeting import coupling, meeting, neighbours, pressed, slipping, spots
 from dolfinrod.scene.meeting.anchors import Anchors
-from dolfinrod.scene.meeting.coupling import Coupling, Felt
-from dolfinrod.scene.meeting.facing import Facing
+from dolfinrod.scene.meeting.coupling import Felt
 from dolfinrod.scene.meeting.meeting import Meeting
 from dolfinrod.scene.meeting.neighbours import Neighbours
 from dolfinrod.scene.rubbing import Rubbing
-from tests.mutations.planting import all_of, derived, replaced
+from tests.mutations.planting import replaced
 from tests.scenes import Array
 
 
-def _on_one_rod(right: Any, nodes: Array, values: Array, n_nodes: int) -> Array:
-    """What the second rod would feel is lost."""
-    M = nodes.shape[1] // 2
-    return np.asarray(right(nodes[:, :M], values[:, :M], n_nodes))
+def _on_one_rod(right: Any, nodes: Array, h: Array, *rest: Any) -> Any:
+    """What pushes the second rod is lost."""
+    kept = h.copy()
+    kept[:, h.shape[1] // 2 :] = 0.0
+    return right(nodes, kept, *rest)
 
 
 def _no_couples(right: Any, self: Meeting, *args: Any) -> Felt:
@@ -34,17 +34,19 @@ def _no_couples(right: Any, self: Meeting, *args: Any) -> Felt:
     return Felt(felt.force, 0.0 * felt.moment)
 
 
-def _elsewhere(right: Any, course: Any, a: Any, u: Array, x: Array, b: Any, v: Array) -> Any:
+def _elsewhere(right: Any, course: Any, a: Any, u: Array, found: Any) -> Any:
     """The second rod is pushed beside the point of contact."""
-    facing, b, v = right(course, a, u, x, b, v)
+    facing = right(course, a, u, found)
     M = facing.h.shape[1] // 2
-    h = np.concatenate([facing.h[:, :M], -course.spans.weights(b, v + 0.1)], axis=1)
-    return replace(facing, h=h), b, v
+    h = np.concatenate([facing.h[:, :M], -course.spans.weights(found.b, found.v + 0.1)], axis=1)
+    return replace(facing, h=h)
 
 
-def _not_projected(_right: Any, _course: Any, _x: Array, span: Any, ξ: Array) -> Any:
-    """The closest point of the chord taken for that of the curve, a fifth of a span further."""
-    return span, np.clip(ξ + 0.2, 0.0, 1.0), np.zeros(len(span), dtype=bool)
+def _not_projected(right: Any, course: Any, a: Any, u: Array, *run: Any) -> Any:
+    """The closest point is taken a fifth of a span further."""
+    found = right(course, a, u, *run)
+    v = np.clip(found.v + 0.2, 0.0, 1.0)
+    return replace(found, v=v, d=course.place(a, u) - course.place(found.b, v))
 
 
 def _one_direction(right: Any, *args: Any, **options: Any) -> Any:
@@ -67,12 +69,23 @@ def _no_anchors(right: Any, self: Anchors, *args: Any) -> Array:
     return np.zeros_like(right(self, *args))
 
 
-def _without(name: str) -> Any:
-    """Derivatives of the last answer without part of what faces the points."""
+def _weights_stay(right: Any, found: Any, *args: Any, **options: Any) -> Any:
+    """Derivatives of the last answer as if weights did not change where the point opposite moves."""
+    return right(replace(found, facing=replace(found.facing, h_v=0.0 * found.facing.h_v)), *args, **options)
 
-    def wrong(right: Any, found: Any, *args: Any) -> Any:
-        part = np.zeros_like(getattr(found.facing, name))
-        return right(replace(found, facing=replace(found.facing, **{name: part})), *args)
+
+def _opposite_stays(right: Any, found: Any, *args: Any, **options: Any) -> Any:
+    """As if it did not move."""
+    still = replace(found.facing.opposite, follow=0.0 * found.facing.opposite.follow)
+    return right(replace(found, facing=replace(found.facing, opposite=still)), *args, **options)
+
+
+def _facing_along(by: float) -> Any:
+    """The normal times a number."""
+
+    def wrong(right: Any, *args: Any) -> Any:
+        facing = right(*args)
+        return replace(facing, normal=by * facing.normal)
 
     return wrong
 
@@ -82,13 +95,17 @@ def _arms_exchanged(right: Any, found: Any, moved: Array, turn: Array, *rest: An
     return right(replace(found, radius_a=found.radius_b, radius_b=found.radius_a), moved, turn, *rest)
 
 
-def _signed(_right: Any, h: Array) -> Array:
-    return h
+def _astray(right: Any, *args: Any) -> Any:
+    """Couples on the second rod are of the other sign."""
+    slip = right(*args)
+    lever = slip.ways.lever.copy()
+    lever[:, lever.shape[1] // 2 :] *= -1.0
+    return replace(slip, ways=slip.ways._replace(lever=lever))
 
 
-def _transposed(right: Any, self: Coupling, product: Any) -> Array:
-    blocks: Array = right(self, product)
-    return blocks.transpose(0, 3, 4, 1, 2)
+def _transposed(right: Any, *args: Any) -> Array:
+    blocks: Array = right(*args)
+    return np.swapaxes(blocks, 1, 2)
 
 
 def _at_the_ends(right: Any, *args: Any) -> Any:
@@ -103,9 +120,9 @@ def _whole_spans(right: Any, *args: Any) -> tuple[Array, Array]:
     return 0.0 * begin, 1.0 * touched
 
 
-def _all_the_way(right: Any, found: Any, g_0: float) -> tuple[Array, Array]:
+def _all_the_way(right: Any, *args: Any) -> tuple[Array, Array]:
     """What comes from afar has rubbed on all of its way."""
-    share, share_gap = right(found, g_0)
+    share, share_gap = right(*args)
     return np.ones_like(share), 0.0 * share_gap
 
 
@@ -164,22 +181,22 @@ def _discrete_half_linked(right: Any, self: Links) -> tuple[Array, Array, Array]
     return rows, columns, 0.5 * values
 
 
-ON_ONE_ROD = replaced(meeting, "gather", _on_one_rod)
+ON_ONE_ROD = replaced(meeting, "dealt", _on_one_rod)
 NO_COUPLES = replaced(Meeting, "respond", _no_couples)
 ELSEWHERE = replaced(pressed, "face", _elsewhere)
-NOT_PROJECTED = replaced(facing, "project", _not_projected)
+NOT_PROJECTED = replaced(pressed, "look", _not_projected)
 ONE_DIRECTION = replaced(meeting, "load", _one_direction)
 FROM_CENTRELINES = replaced(Meeting, "__init__", _from_centrelines)
-NOT_UNIT = derived(Facing, "normal", lambda n: 1.1 * n)
-INWARDS = derived(Facing, "normal", lambda n: -n)
+NOT_UNIT = replaced(pressed, "face", _facing_along(1.1))
+INWARDS = replaced(pressed, "face", _facing_along(-1.0))
 TOWARDS_THE_SLIP = replaced(slipping, "rubbed", _towards_the_slip)
 NO_ANCHORS = replaced(Anchors, "of", _no_anchors)
 ANCHORS_IN_SPACE = replaced(slipping, "rotated", lambda _right, _turn, u: u)
-WEIGHTS_STAY = replaced(meeting, "Derivatives", _without("h_v"))
-OPPOSITE_STAYS = replaced(meeting, "Derivatives", _without("follow"))
+WEIGHTS_STAY = replaced(meeting, "derivatives", _weights_stay)
+OPPOSITE_STAYS = replaced(meeting, "derivatives", _opposite_stays)
 ARMS_EXCHANGED = replaced(meeting, "slide", _arms_exchanged)
-COUPLES_ASTRAY = all_of(*(replaced(part, "whole", _signed) for part in (slipping, acting)))
-TRANSPOSED = replaced(Coupling, "_blocks", _transposed)
+COUPLES_ASTRAY = replaced(meeting, "slide", _astray)
+TRANSPOSED = replaced(coupling, "summed", _transposed)
 AT_NODES = replaced(meeting, "points", _at_the_ends)
 WHOLE_SPANS = replaced(spots, "intervals", _whole_spans)
 ALL_THE_WAY = replaced(slipping, "_shares", _all_the_way)

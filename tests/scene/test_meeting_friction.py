@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -37,8 +39,9 @@ def upper(v: tuple[float, float, float]) -> Array:
     return np.concatenate([np.zeros((N, 3)), np.tile(v, (N, 1))])
 
 
-def rubbing(x: Array, mu: float, level: float = 1.0, lines: Strands = LINES) -> Meeting:
-    meeting = Meeting(RodContact(dr.Penalty(STIFF, HALO), dr.Coulomb(mu, eps_T=0.5 * STIFF)), lines, level)
+def rubbing(x: Array, mu: float, level: float = 1.0, at: Literal["surface", "centreline"] = "surface") -> Meeting:
+    friction = dr.Coulomb(mu, eps_T=0.5 * STIFF, at=at)
+    meeting = Meeting(RodContact(dr.Penalty(STIFF, HALO), friction), LINES, level)
     meeting.place(x, 0.0)
     return meeting
 
@@ -217,3 +220,44 @@ def test_a_rod_that_is_dragged_across_joints_is_rubbed_all_the_way():
         rubs = -meeting.respond(x + upper((0.012 * (k + 1), 0.0, 0.0)), still).force[N:, 0].sum()
         assert k < 3 or rubs == pytest.approx(μ * pressing(meeting), rel=1e-2)
         meeting.accept()
+
+
+@every_angle
+@every_level
+def test_friction_at_centrelines_is_a_force_without_a_moment(angle, level):
+    """Sections that turn feel and change nothing; where none turns, the forces are those of friction at surfaces."""
+    rng, x, still = np.random.default_rng(6), pair(angle), np.zeros((2 * N, 3))
+    moved = x + upper((0.0, 2e-4, 0.0)) + rng.normal(scale=1e-5, size=x.shape)
+    alone, turning = (rubbing(x, 0.3, level, "centreline") for _ in range(2))
+    for k in range(2):
+        turn, way = rng.normal(scale=0.1, size=x.shape), k * upper((1e-4, 0.0, 0.0))
+        held, felt = alone.respond(moved + way, still), turning.respond(moved + way, turn)
+        np.testing.assert_array_equal(felt.force, held.force)
+        assert not felt.moment.any()
+        if k == 0:
+            surface = rubbing(x, 0.3, level).respond(moved, still)
+            assert largest(surface.force - held.force) <= 1e-12 * largest(held.force)
+            assert surface.moment.any()
+        for meeting in (alone, turning):
+            meeting.accept()
+            meeting.begin(k + 2.0)
+    assert not turning.turns
+    assert largest(turning.met().traction) > 0.0
+
+
+@every_level
+@pytest.mark.parametrize("mu", [0.3, 50.0], ids=["slides", "sticks"])
+def test_gradient_of_friction_at_centrelines(level, mu):
+    rng, x_0, still = np.random.default_rng(4), pair(0.0), np.zeros((2 * N, 3))
+    meeting = rubbing(x_0, mu, level, "centreline")
+    x, dx, h = x_0 + rng.normal(scale=2e-4, size=x_0.shape), rng.normal(size=x_0.shape), 1e-6
+    meeting.respond(x, still)
+    K = meeting.gradient()
+    whole, half = (
+        (meeting.respond(x + k * h * dx, still).force - meeting.respond(x - k * h * dx, still).force) / (2 * k * h)
+        for k in (2, 1)
+    )
+    force, moment = K.times(dx, rng.normal(size=x.shape))
+    assert largest((4 * half - whole) / 3 - force) <= 1e-8 * largest(force)
+    assert not moment.any()
+    assert all(part is None for part in (K.f_turn, K.m_x, K.m_turn, K.nodal().f_turn, K.nodal().m_turn))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from dolfinrod.scene.meeting import Strands
 from dolfinrod.scene.meeting.curves import Spans
 from dolfinrod.scene.meeting.neighbours import Neighbours
-from dolfinrod.scene.meeting.projection import project
+from dolfinrod.scene.meeting.projection import closest, opposite
 from tests.scenes import largest
 
 Array = NDArray[np.float64]
@@ -43,8 +43,9 @@ def test_cubics_have_no_kinks_and_follow_parabolas():
     assert largest(spans.course(S[:, None] ** np.arange(3) @ PARABOLA).place(*at) - exact) <= 100 * EPS
     course = spans.course(np.random.default_rng(1).normal(size=(len(S), 3)))
     cells, none = np.arange(len(S) - 1), np.zeros(len(S) - 1)
-    (end, slope_end, _), (start, slope, _) = course.at(cells, none + 1.0), course.at(cells, none)
     long = np.diff(S)[:, None]
+    end, start = course.place(cells, none + 1.0), course.place(cells, none)
+    slope_end, slope = (opposite(course.curves, cells, none + at, cells, none + at)[3] for at in (1.0, 0.0))
     assert largest(end[:-1] - start[1:]) <= 100 * EPS
     assert largest((slope_end / long)[:-1] - (slope / long)[1:]) <= 1e4 * EPS
 
@@ -71,7 +72,10 @@ def test_closest_points_are_the_closest():
     every = course.place(*sampled(spans, 401))
     nearest = np.linalg.norm(points[:, None] - every, axis=2)
     begin = nearest.argmin(axis=1)
-    span, ξ, _ = project(course, points, sampled(spans, 401)[0][begin], sampled(spans, 401)[1][begin])
+    spots = zip(points, sampled(spans, 401)[0][begin], sampled(spans, 401)[1][begin], strict=True)
+    span, ξ, _ = (
+        np.array(part) for part in zip(*(closest(course.curves, tuple(x), *at) for x, *at in spots), strict=True)
+    )
     found = np.linalg.norm(points - course.place(span, ξ), axis=1)
     assert (found <= nearest.min(axis=1) + 100 * EPS).all()
     assert largest(found - nearest.min(axis=1)) <= 1e-3

@@ -1,123 +1,89 @@
 """Forces and couples of points in contact, and their derivatives by what nodes do.
 
-All that acts at a point depends on a few vectors, sums over its nodes: X = Σ h x, V = Σ h_v x and, where a mean load
-acts in the middle of a step, E = Σ h x with the weights at its end; and of the rotation vectors ψ of the sections,
-Θ = Σ ℓ ψ and Ψ = Σ |h| ψ. Forces and couples go back to nodes by the same weights. So blocks of nodes are products of
-weights and of matrices 3 × 3.
+All that acts at a point depends on a few numbers: on X = Σ h x over its nodes; on the coordinate v opposite, which
+follows X and V = Σ h_v x; on the gap at the end of a step, which follows E = Σ h x with the weights there; and on the
+rotation vectors ψ of the sections by Θ = Σ ℓ ψ and Ψ = Σ |h| ψ. Forces and couples go back to nodes by weights h and ℓ.
 """
 
 from __future__ import annotations
 
+from math import sqrt
+
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.coupling import Product
-from dolfinrod.scene.meeting.curves import dot
+from dolfinrod.scene.meeting.changes import Changes
+from dolfinrod.scene.meeting.compiled import compiled
 from dolfinrod.scene.meeting.pressed import Pressed
-from dolfinrod.scene.meeting.slipping import Slip, rotated_turn, whole
-from dolfinrod.scene.rubbing import Pressed as Limits
-from dolfinrod.scene.rubbing import cross, skew, traction_gradient
+from dolfinrod.scene.meeting.slipping import Slip
+from dolfinrod.scene.meeting.slopes import RUBBING, WAYS, Leaning, Slid, pressing, rubbing
+from dolfinrod.scene.meeting.vectors import crossed, row
 
-__all__ = ["Derivatives", "couples", "forces"]
+__all__ = ["derivatives", "forces"]
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 
-def forces(pressed: Pressed, slip: Slip | None) -> Array:
-    """On the first rod, shape (n, 3) [N]."""
-    line = pressed.p[:, None] * pressed.facing.normal
-    return np.asarray(pressed.length[:, None] * (line if slip is None else line + slip.traction))
+def forces(pressed: Pressed, slip: Slip | None) -> tuple[Array, Array]:
+    """On the first rod; and n × t times length, which turns both rods by −a n × t; shape (n, 3) [N] each."""
+    normal = pressed.facing.normal
+    traction = np.zeros_like(normal) if slip is None else slip.traction
+    return _forces(normal, pressed.p, traction, pressed.length)
 
 
-def couples(pressed: Pressed, slip: Slip) -> Array:
-    """n × t, which turns both rods by −a n × t, shape (n, 3) [N]."""
-    return np.asarray(pressed.length[:, None] * cross(pressed.facing.normal, slip.traction))
+@compiled
+def _forces(n: Array, p: Array, t: Array, length: Array) -> tuple[Array, Array]:
+    force, couple = np.empty((len(p), 3)), np.empty((len(p), 3))
+    for i in range(len(p)):
+        c = crossed(row(n, i), row(t, i))
+        for j in range(3):
+            force[i, j], couple[i, j] = length[i] * (p[i] * n[i, j] + t[i, j]), length[i] * c[j]
+    return force, couple
 
 
-class Derivatives:
+def derivatives(pressed: Pressed, slip: Slip | None, friction: tuple[float, float], *, turns: bool) -> Changes:
     """Derivatives of forces and couples.
 
     Args:
         pressed: Points in contact.
         slip: How they slide; None where nothing rubs.
         friction: Coefficient and stiffness of the anchors.
+        turns: Whether friction has a lever arm.
+
+    Returns:
+        What they change with.
     """
+    facing, level, end, seen = pressed.facing, pressed.level, pressed.end, pressed.facing.opposite
+    n, p, slope, length = facing.normal, pressed.p, pressed.slope, pressed.length
+    at, arm = Leaning(n, facing.distance, seen.t), np.zeros(len(p))
+    columns = pressing(at, p, slope, length, level, RUBBING if turns else WAYS)
+    (force, couple), follow = forces(pressed, slip), (level * seen.follow)[:, None]
+    weights, vectors = [facing.h, facing.h_v, end.h], [follow * seen.t, follow * seen.d, end.normal, force]
+    if slip is not None:
+        arm, rubs = slip.arm, slip.rubbing
+        numbers = np.stack([slope, length, arm, slip.share, slip.share_gap], axis=1)
+        resists = _resists(rubs.u, rubs.slides, p, *friction)
+        by = Slid(slip.ways.vectors, slip.start, slip.v, rubs.traction)
+        rubbing(at, by, numbers, resists, level, columns)
+        if turns:
+            weights += [slip.ways.lever, slip.ways.whole]
+            vectors += [couple, 0.5 * level * n]
+    return Changes(np.stack(weights, axis=1), np.stack(vectors, axis=1), columns, arm)
 
-    def __init__(self, pressed: Pressed, slip: Slip | None, friction: tuple[float, float]) -> None:
-        self._pressed, self._slip, self._friction = pressed, slip, friction
-        facing, level = pressed.facing, pressed.level
-        at_end = level == 1.0
-        self._basis = np.stack([facing.h, facing.h_v, *([] if at_end else [pressed.end.h])], axis=1)
-        self._wide = 3 * self._basis.shape[1]
-        n, D = facing.normal, facing.distance
-        self._n, count = n, len(n)
-        self._v = np.zeros((count, self._wide))
-        self._v[:, :3], self._v[:, 3:6] = level * facing.follow[:, None] * np.stack([facing.t, facing.d])
-        across = (np.eye(3) - n[:, :, None] * n[:, None, :]) / np.where(D > 0.0, D, np.inf)[:, None, None]
-        self._n_q = -(across @ facing.t[:, :, None]) * self._v[:, None, :]
-        self._n_q[:, :, :3] += level * across
-        self._gap = np.zeros((count, self._wide))
-        last = slice(0, 3) if at_end else slice(6, 9)
-        self._gap[:, last] = pressed.end.normal
 
-    def force_x(self) -> Product:
-        """∂f/∂x."""
-        pressed, W = self._pressed, self._pressed.length[:, None, None]
-        F_q = self._n[:, :, None] * (pressed.slope[:, None] * self._gap)[:, None, :]
-        F_q += pressed.p[:, None, None] * self._n_q
-        if self._slip is not None:
-            self._t_q = self._traction(self._slid_by_places(self._slip), pressed.slope[:, None] * self._gap)
-            F_q += self._t_q
-        F = forces(pressed, self._slip)
-        core = np.stack([W * F_q, -F[:, :, None] * self._v[:, None, :]], axis=1)
-        return Product(self._basis[:, :2], core, self._basis)
-
-    def rubbing(self) -> tuple[Product, Product, Product]:
-        """∂f by turns, ∂m/∂x and ∂m by turns; after `force_x`."""
-        pressed, slip, facing = self._pressed, self._slip, self._pressed.facing
-        assert slip is not None
-        W, both = pressed.length[:, None, None], whole(facing.h)
-        turns = np.stack([slip.lever, both], axis=1)
-        t_turn = self._traction(self._slid_by_turns(slip), np.zeros((len(both), 6)))
-        c, N, level = couples(pressed, slip), skew(self._n), pressed.level
-        c_q = W * (N @ self._t_q - skew(slip.traction) @ self._n_q)
-        D_q = np.zeros((len(c), self._wide))
-        D_q[:, :3] = level * self._n
-        rows = (
-            c_q,
-            0.5 * c[:, :, None] * D_q[:, None, :],
-            slip.arm[:, None, None] * c[:, :, None] * self._v[:, None, :],
-        )
-        levers = np.stack([slip.lever, both, facing.h_v], axis=1)
-        force_turn = Product(facing.h[:, None], (W * t_turn)[:, None], turns)
-        moment_x = Product(levers, -np.stack(rows, axis=1), self._basis)
-        return force_turn, moment_x, Product(slip.lever[:, None], -(W * (N @ t_turn))[:, None], turns)
-
-    def _traction(self, u_q: Array, p_q: Array) -> Array:
-        """∂t, shape (n, 3, q)."""
-        slip, p, n = self._slip, self._pressed.p, self._n
-        assert slip is not None
-        limits = Limits(p, p_q, n, np.zeros((len(n), 3, 3)), p, p)
-        return traction_gradient(limits, slip.rubbing, u_q, *self._friction)
-
-    def _slid_by_places(self, slip: Slip) -> Array:
-        """∂u of the displacement from the anchors, shape (n, 3, q)."""
-        n, n_q, v_q = self._n, self._n_q, self._v[:, None, :]
-        D_q = np.zeros_like(v_q)
-        D_q[:, 0, :3] = self._pressed.level * n
-        Θ_q = 0.5 * slip.both[:, :, None] * D_q + slip.arm[:, None, None] * slip.both_v[:, :, None] * v_q
-        w_q = skew(n) @ Θ_q - skew(slip.turned) @ n_q - slip.w_v[:, :, None] * v_q
-        w_q[:, :, :3] += np.eye(3)
-        self._back = 0.5 * rotated_turn(0.5 * slip.both, slip.start)
-        back = self._back @ slip.both_v[:, :, None] * v_q
-        v = slip.share[:, None, None] * w_q + back
-        v += slip.w[:, :, None] * (slip.share_gap[:, None] * self._gap)[:, None, :]
-        u_q = v - dot(n, slip.v)[:, None, None] * n_q
-        along = np.einsum("ni,niq->nq", n, v) + np.einsum("ni,niq->nq", slip.v, n_q)
-        return np.asarray(u_q - n[:, :, None] * along[:, None, :])
-
-    def _slid_by_turns(self, slip: Slip) -> Array:
-        """The same by Θ and Ψ, shape (n, 3, 6); after `_slid_by_places`."""
-        n, back = self._n[:, :, None], self._back
-        turned = back - n * (self._n[:, None, :] @ back)
-        return np.concatenate([slip.share[:, None, None] * skew(self._n), turned], axis=2)
+@compiled
+def _resists(u: Array, slides: Flags, p: Array, μ: float, ε_T: float) -> Array:
+    """Derivatives of the traction by the displacement from the anchors and by the line load, shape (n, 3, 4)."""
+    resists = np.zeros((len(p), 3, 4))
+    for i in range(len(p)):
+        far, held = sqrt(u[i, 0] ** 2 + u[i, 1] ** 2 + u[i, 2] ** 2), -ε_T
+        if slides[i]:
+            held = -μ * p[i] / far
+        for j in range(3):
+            resists[i, j, j] = held
+            if slides[i]:
+                for k in range(3):
+                    resists[i, j, k] -= held * (u[i, j] / far) * (u[i, k] / far)
+                resists[i, j, 3] = -μ * u[i, j] / far
+    return resists

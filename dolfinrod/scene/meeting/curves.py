@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import comb
+from functools import cached_property
+from math import comb, sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.meeting.compiled import compiled
 from dolfinrod.scene.meeting.strands import Strands
+from dolfinrod.scene.meeting.vectors import Point
 
-__all__ = ["Course", "Spans", "between", "dot", "travel"]
+__all__ = ["Course", "Curves", "Spans", "along", "between", "dot", "spot", "travel"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
@@ -35,6 +39,7 @@ class Spans:
         nodes: Likewise, shape (n, m).
         s: Arc length where it begins, shape (n,) [m].
         length: Arc length of it, shape (n,) [m].
+        shape: Coefficients of ξ^q in w, shape (n, m, p + 1).
         onward: Whether the next span goes on where it ends.
         back: Whether the one before ends where it begins.
         spread: How much further points may move than nodes.
@@ -51,8 +56,8 @@ class Spans:
         self.radius = strands.radius[self.rod]
         self.length = long[self.cell] * part
         self.s = strands.s[self.cell, 0] + piece * self.length
-        self._shape = _cut(strands.shape[self.cell], piece * part, part)
-        self._powers = np.ascontiguousarray(self._shape.transpose(0, 2, 1))
+        self.shape = _cut(strands.shape[self.cell], piece * part, part)
+        self._powers = np.ascontiguousarray(self.shape.transpose(0, 2, 1))
         samples = [self.weights(np.arange(len(part)), np.full(len(part), ξ)) for ξ in np.linspace(0.0, 1.0, 5)]
         self.spread = float(np.abs(samples).sum(axis=2).max(initial=1.0))
         self.onward = np.append(self.rod[1:] == self.rod[:-1], False)
@@ -60,7 +65,7 @@ class Spans:
 
     def course(self, x: Array) -> Course:
         """Where they run with nodes at x, shape (n_nodes, 3)."""
-        return Course(self, x, self._powers @ x[self.nodes])
+        return Course(self, x, _bent(self._powers, self.nodes, x))
 
     def along(self, span: Integers, ξ: Array) -> Array:
         """Arc lengths, shape (n,) [m]."""
@@ -73,17 +78,9 @@ class Spans:
 
     def weights(self, span: Integers, ξ: Array) -> Array:
         """w of the nodes of spans at ξ, shape (n, m)."""
-        w = self._shape[span, :, -1]
-        for q in range(self._shape.shape[2] - 2, -1, -1):
-            w = w * ξ[:, None] + self._shape[span, :, q]
-        return np.asarray(w)
-
-    def slopes(self, span: Integers, ξ: Array) -> Array:
-        """dw/dξ, shape (n, m)."""
-        most = self._shape.shape[2] - 1
-        w = most * self._shape[span, :, most]
-        for q in range(most - 1, 0, -1):
-            w = w * ξ[:, None] + q * self._shape[span, :, q]
+        w = self.shape[span, :, -1]
+        for q in range(self.shape.shape[2] - 2, -1, -1):
+            w = w * ξ[:, None] + self.shape[span, :, q]
         return np.asarray(w)
 
 
@@ -95,6 +92,47 @@ def _cut(shape: Array, start: Array, part: Array) -> Array:
         for r in range(q + 1):
             to[:, q, r] = comb(q, r) * start ** (q - r) * part**r
     return np.asarray(shape @ to)
+
+
+class Curves(NamedTuple):
+    """What kernels are told of spans in space.
+
+    Args:
+        c: As `Course`.
+        chord: From where spans begin to where they end, shape (n_spans, 3) [m].
+        onward: As `Spans`.
+        back: Likewise.
+    """
+
+    c: Array
+    chord: Array
+    onward: Flags
+    back: Flags
+
+
+@compiled
+def along(c: Array, span: int, i: int, ξ: float) -> tuple[float, float, float]:
+    """Coordinate i of a place and its first and second derivatives by ξ."""
+    x, x_1, x_2 = c[span, c.shape[1] - 1, i], 0.0, 0.0
+    for q in range(c.shape[1] - 2, -1, -1):
+        x_2 = x_2 * ξ + x_1
+        x_1 = x_1 * ξ + x
+        x = x * ξ + c[span, q, i]
+    return x, x_1, 2.0 * x_2
+
+
+@compiled
+def spot(c: Array, span: int, ξ: float) -> Point:
+    """A place."""
+    return along(c, span, 0, ξ)[0], along(c, span, 1, ξ)[0], along(c, span, 2, ξ)[0]
+
+
+@compiled
+def _places(c: Array, span: Integers, ξ: Array) -> Array:
+    x = np.empty((len(span), 3))
+    for i in range(len(span)):
+        x[i, 0], x[i, 1], x[i, 2] = spot(c, span[i], ξ[i])
+    return x
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,22 +149,18 @@ class Course:
     x: Array
     c: Array
 
-    def at(self, span: Integers, ξ: Array) -> tuple[Array, Array, Array]:
-        """Places and their first and second derivatives by ξ, each of shape (n, 3)."""
-        c, ξ = self.c[span], ξ[:, None]
-        x, x_1, x_2 = c[:, -1], np.zeros((len(span), 3)), np.zeros((len(span), 3))
-        for q in range(c.shape[1] - 2, -1, -1):
-            x_2 = x_2 * ξ + x_1
-            x_1 = x_1 * ξ + x
-            x = x * ξ + c[:, q]
-        return x, x_1, 2.0 * x_2
-
     def place(self, span: Integers, ξ: Array) -> Array:
-        """Places alone, shape (n, 3)."""
-        c, x = self.c[span], self.c[span, -1]
-        for q in range(self.c.shape[1] - 2, -1, -1):
-            x = x * ξ[:, None] + c[:, q]
-        return np.asarray(x)
+        """Places, shape (n, 3)."""
+        return _places(self.c, span, ξ)
+
+    @cached_property
+    def _straight(self) -> tuple[Array, Array]:
+        return _straightened(self.c)
+
+    @cached_property
+    def curves(self) -> Curves:
+        """The same for kernels."""
+        return Curves(self.c, self.chords, self.spans.onward, self.spans.back)
 
     @property
     def starts(self) -> Array:
@@ -136,14 +170,39 @@ class Course:
     @property
     def chords(self) -> Array:
         """From where spans begin to where they end, shape (n_spans, 3)."""
-        return np.asarray(self.c[:, 1:].sum(axis=1))
+        return self._straight[0]
 
     @property
     def sag(self) -> Array:
         """How far spans may be from their chords at the same ξ, shape (n_spans,) [m]."""
-        q = np.arange(2, self.c.shape[1])
-        most = (q - 1.0) * q ** (-q / (q - 1.0))
-        return np.asarray(np.linalg.norm(self.c[:, 2:], axis=2) @ most)
+        return self._straight[1]
+
+
+@compiled
+def _bent(powers: Array, nodes: Integers, x: Array) -> Array:
+    """Coefficients of spans, shape (n, p + 1, 3)."""
+    c = np.zeros((powers.shape[0], powers.shape[1], 3))
+    for i in range(c.shape[0]):
+        for q in range(c.shape[1]):
+            for a in range(nodes.shape[1]):
+                for j in range(3):
+                    c[i, q, j] += powers[i, q, a] * x[nodes[i, a], j]
+    return c
+
+
+@compiled
+def _straightened(c: Array) -> tuple[Array, Array]:
+    """Chords of spans, and how far these may be from them: |ξ^q − ξ| is at most (q − 1) q^(−q/(q − 1))."""
+    chord, sag = np.zeros((len(c), 3)), np.zeros(len(c))
+    for i in range(len(c)):
+        for q in range(1, c.shape[1]):
+            x, y, z = c[i, q, 0], c[i, q, 1], c[i, q, 2]
+            chord[i, 0] += x
+            chord[i, 1] += y
+            chord[i, 2] += z
+            if q > 1:
+                sag[i] += (q - 1.0) * float(q) ** (-q / (q - 1.0)) * sqrt(x * x + y * y + z * z)
+    return chord, sag
 
 
 def between(start: Course, end: Course, part: float) -> Course:

@@ -3,68 +3,35 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.meeting.compiled import compiled
 from dolfinrod.scene.meeting.curves import Course, dot
-from dolfinrod.scene.meeting.projection import project
+from dolfinrod.scene.meeting.projection import begin_at, opposite
 
-__all__ = ["Facing", "Opposite", "face", "oppose"]
+__all__ = ["Facing", "Opposite", "face", "look"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
 class Opposite:
-    """What lies opposite points of spans: the closest points of others.
+    """What lies opposite points: the closest points of others.
 
     Args:
         b: Spans where it lies, shape (n,).
         v: Coordinates there.
-        d: From there to the points, shape (n, 3) [m].
-        square: Distance squared, shape (n,) [m²].
-        slope: Its derivative by the coordinate u of the points on their spans.
-        bend: Its second derivative by u.
-    """
-
-    b: Integers
-    v: Array
-    d: Array
-    square: Array
-    slope: Array
-    bend: Array
-
-
-def oppose(course: Course, a: Integers, u: Array, b: Integers, v: Array) -> Opposite:
-    """What lies opposite points of spans a at u, looked for from spans b at v on."""
-    x, x_u, x_uu = course.at(a, u)
-    b, v, held = project(course, x, b, v)
-    x_B, t, t_v = course.at(b, v)
-    d = x - x_B
-    κ = dot(t, t) - dot(d, t_v)
-    follows = np.where(held | (κ <= 0.0), 0.0, dot(x_u, t) ** 2 / np.where(κ == 0.0, 1.0, κ))
-    return Opposite(b, v, d, dot(d, d), 2.0 * dot(d, x_u), 2.0 * (dot(x_u, x_u) + dot(d, x_uu) - follows))
-
-
-@dataclass(frozen=True, eq=False)
-class Facing:
-    """Points opposite each other, as linear in nodes.
-
-    Args:
-        nodes: Of the first span, then of the second, shape (n, M).
-        h: Weights of nodes in x_A − x_B, shape (n, M).
-        h_v: Their derivatives by the coordinate v on the second, shape (n, M).
-        d: x_A − x_B, shape (n, 3) [m].
+        d: From there to the points, x_A − x_B, shape (n, 3) [m].
         t: dx_B/dv, shape (n, 3) [m].
         follow: 1/(|t|² − d·x_B″), the way of the point opposite; zero where it is held, shape (n,) [1/m²].
     """
 
-    nodes: Integers
-    h: Array
-    h_v: Array
+    b: Integers
+    v: Array
     d: Array
     t: Array
     follow: Array
@@ -74,40 +41,71 @@ class Facing:
         """|d|, shape (n,) [m]."""
         return np.sqrt(dot(self.d, self.d))
 
-    @property
-    def normal(self) -> Array:
-        """From the second to the first, shape (n, 3)."""
-        D = self.distance
-        return np.asarray(self.d / np.where(D > 0.0, D, 1.0)[:, None])
-
-    def only(self, on: Integers | Flags) -> Facing:
+    def only(self, on: Integers | slice) -> Opposite:
         """Some of the points."""
-        return Facing(self.nodes[on], self.h[on], self.h_v[on], self.d[on], self.t[on], self.follow[on])
+        return Opposite(self.b[on], self.v[on], self.d[on], self.t[on], self.follow[on])
 
 
-def face(course: Course, a: Integers, u: Array, x: Array, b: Integers, v: Array) -> tuple[Facing, Integers, Array]:
-    """What faces points.
+def look(course: Course, a: Integers, u: Array, first: Integers, last: Integers) -> Opposite:
+    """What lies opposite points on runs.
 
     Args:
         course: The rods.
         a: Spans of the points, shape (n,).
-        u: Their coordinates there.
-        x: Where they are, shape (n, 3) [m].
-        b: Spans from which on what faces them is looked for.
-        v: Likewise, coordinates.
+        u: Places on them.
+        first: Spans with which the runs begin, shape (n,).
+        last: With which they end.
 
     Returns:
-        What faces them, on which spans, and where on them.
+        The closest places, which may be beyond the runs.
     """
+    return Opposite(*opposite(course.curves, a, u, *begin_at(course.curves, a, u, first, last)))
+
+
+@dataclass(frozen=True, eq=False)
+class Facing:
+    """Points opposite each other, as linear in nodes.
+
+    Args:
+        nodes: Of the first span, then of the second, shape (n, M).
+        h: Weights of nodes in x_A − x_B, shape (n, M).
+        h_v: Their derivatives by the coordinate v on the second, with the sign changed, shape (n, M).
+        distance: |x_A − x_B|, shape (n,) [m].
+        normal: From the second to the first, shape (n, 3).
+        opposite: What lies there.
+    """
+
+    nodes: Integers
+    h: Array
+    h_v: Array
+    distance: Array
+    normal: Array
+    opposite: Opposite
+
+
+def face(course: Course, a: Integers, u: Array, found: Opposite) -> Facing:
+    """What faces points of spans a at u, from what lies opposite."""
     spans = course.spans
-    b, v, held = project(course, x, b, v)
-    x_B, t, t_v = course.at(b, v)
-    d = x - x_B
-    κ = dot(t, t) - dot(d, t_v)
-    free = ~held & (κ > 0.0)
-    follow = np.where(free, 1.0 / np.where(free, κ, 1.0), 0.0)
-    w, w_v = spans.weights(b, v), spans.slopes(b, v)
-    h = np.concatenate([spans.weights(a, u), -w], axis=1)
-    h_v = np.concatenate([np.zeros_like(w), w_v], axis=1)
-    nodes = np.concatenate([spans.nodes[a], spans.nodes[b]], axis=1)
-    return Facing(nodes, h, h_v, d, t, follow), b, v
+    return Facing(*_faced(spans.nodes, spans.shape, a, u, found.b, found.v, found.d), found)
+
+
+@compiled
+def _faced(
+    nodes: Integers, shape: Array, a: Integers, u: Array, b: Integers, v: Array, d: Array
+) -> tuple[Integers, Array, Array, Array, Array]:
+    n, m, last = len(a), shape.shape[1], shape.shape[2] - 1
+    at, h, h_v = np.empty((n, 2 * m), np.intp), np.empty((n, 2 * m)), np.zeros((n, 2 * m))
+    distance, normal = np.empty(n), np.zeros((n, 3))
+    for i in range(n):
+        for k in range(m):
+            at[i, k], at[i, m + k] = nodes[a[i], k], nodes[b[i], k]
+            w_a, w_b, w_v = shape[a[i], k, last], shape[b[i], k, last], 0.0
+            for q in range(last - 1, -1, -1):
+                w_a = w_a * u[i] + shape[a[i], k, q]
+                w_v = w_v * v[i] + w_b
+                w_b = w_b * v[i] + shape[b[i], k, q]
+            h[i, k], h[i, m + k], h_v[i, m + k] = w_a, -w_b, w_v
+        distance[i] = sqrt(d[i, 0] ** 2 + d[i, 1] ** 2 + d[i, 2] ** 2)
+        for j in range(3):
+            normal[i, j] = d[i, j] / distance[i] if distance[i] > 0.0 else 0.0
+    return at, h, h_v, distance, normal

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.meetings import Meetings
-from dolfinrod.scene.meeting.acting import Derivatives, couples, forces
+from dolfinrod.scene.meeting.acting import derivatives, forces
 from dolfinrod.scene.meeting.anchors import Anchors, keys, matched
-from dolfinrod.scene.meeting.coupling import Coupling, Felt, gather
+from dolfinrod.scene.meeting.coupling import Coupling, Felt, dealt
 from dolfinrod.scene.meeting.curves import Spans, dot
 from dolfinrod.scene.meeting.neighbours import Neighbours
 from dolfinrod.scene.meeting.passing import passes
@@ -73,8 +73,7 @@ class Meeting:
         self._mine = own & touching
         self._near = Neighbours(spans, contact.law.g_0, touching, self._mine)
         friction = contact.friction
-        self.turns = friction is not None
-        self._μ = 0.0 if friction is None else friction.mu
+        self.turns = friction is not None and friction.at == "surface"
         anchors = None if friction is None else friction.eps_T
         self._stiffness = contact.law.eps_N if anchors is None else anchors
         self.changed = self.forced = self.stale = False
@@ -132,17 +131,14 @@ class Meeting:
         self._x, self._n = x.copy(), len(x)
         self._pressed = pressed = self._led(x)
         self._key = keys(self._spans, pressed)
-        self._slip = slip = self._slide(pressed, turn) if self.turns else None
+        self._slip = slip = self._slide(pressed, turn if self.turns else np.zeros_like(x))
         state = np.full(len(pressed.p), SLIDES) if slip is None else np.where(slip.rubbing.slides, SLIDES, STICKS)
         self.forced = slip is not None and slip.rubbing.forced
         found = np.stack([self._key, state])
         self.changed, self._state = self.forced or not np.array_equal(found, self._state), found
-        facing, force = pressed.facing, forces(pressed, slip)
-        felt = gather(facing.nodes, facing.h[:, :, None] * force[:, None, :], self._n)
-        if slip is None:
-            return Felt(felt, np.zeros((self._n, 3)))
-        turning = -slip.lever[:, :, None] * couples(pressed, slip)[:, None, :]
-        return Felt(felt, gather(facing.nodes, turning, self._n))
+        nodes, h = pressed.facing.nodes, pressed.facing.h
+        lever = np.zeros((len(h), 0)) if slip is None or not self.turns else slip.ways.lever
+        return Felt(*dealt(nodes, h, lever, *forces(pressed, slip), self._n))
 
     def _led(self, x: Array) -> Pressed:
         """Points under load."""
@@ -152,16 +148,19 @@ class Meeting:
         self.stale, self._renewed = self._renewed, False
         self._course = course = self._spans.course(x)
         self._marks = found = marks(course, near, self.contact.law)
-        courses = (course, self._course_0) if mean or self.turns else (course,)
+        courses = (course, self._course_0) if mean or self.contact.friction is not None else (course,)
         return load(near, points(both(found, self._began()) if mean else found), self._law, courses, mean=mean)
 
-    def _slide(self, pressed: Pressed, turn: Array) -> Slip:
-        """How it slides; what slid one way in the last answer is kept in mind."""
+    def _slide(self, pressed: Pressed, turn: Array) -> Slip | None:
+        """How it slides, if anything rubs; what slid one way in the last answer is kept in mind."""
+        friction = self.contact.friction
+        if friction is None:
+            return None
         at, known = matched(self._key, self._slid[0])
         slid = np.zeros((len(at), 3))
         slid[known] = self._slid[1][at[known]]
-        anchors, friction = self._anchors.of(self._spans, pressed), (self._μ, self._ε_T)
-        slip = slide(pressed, self._x - self._x_0, turn, anchors, slid, friction, self._law.g_0)
+        anchors, moved = self._anchors.of(self._spans, pressed), self._x - self._x_0
+        slip = slide(pressed, moved, turn, anchors, slid, friction, self._ε_T, self._law.g_0)
         slides = slip.rubbing.slides & self._inert
         self._slid = self._key[slides], slip.rubbing.u[slides]
         return slip
@@ -170,14 +169,12 @@ class Meeting:
         """Derivatives of the last answer, the intervals of contact kept."""
         pressed, cell = self._pressed, self._spans.cell
         cells = (cell[-1] + 1) * cell[pressed.a] + cell[pressed.b]
-        order = np.argsort(cells, kind="stable")
-        _, first, pair = np.unique(cells[order], return_index=True, return_inverse=True)
-        derivatives = Derivatives(pressed, self._slip, (self._μ, self._ε_T))
-        products = [derivatives.force_x(), *([] if self._slip is None else derivatives.rubbing())]
-        nodes = pressed.facing.nodes[order[first]]
-        if (np.diff(cells) < 0).any():
-            products = [product.ordered(order) for product in products]
-        return Coupling(nodes, pair, self._n, *products)
+        other = np.diff(cells, prepend=-1) != 0
+        first, pair = np.flatnonzero(other), np.cumsum(other) - 1
+        friction = self.contact.friction
+        limits = (0.0, 0.0) if friction is None else (friction.mu, self._ε_T)
+        changes = derivatives(pressed, self._slip, limits, turns=self.turns)
+        return Coupling(pressed.facing.nodes[first], pair, self._n, changes, self.turns)
 
     def pierces(self) -> bool:
         """Whether a rod has gone through another in the step, or half-way into it: it was too long."""
@@ -195,7 +192,7 @@ class Meeting:
         self._anchors, self._stored = Anchors.none(), self._in(pressed) if self._level == 1.0 else None
         if slip is not None:
             self._anchors = Anchors.left(self._spans, pressed, slip.rubbing.anchored)
-            rubbed -= float(pressed.length @ dot(slip.traction, slip.w))
+            rubbed -= float(pressed.length @ dot(slip.traction, slip.ways.w))
         return self.stored(), rubbed - self._anchors.energy(self._stiffness)
 
     def _in(self, pressed: Pressed) -> float:

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.meeting.curves import Course, between, dot, travel
-from dolfinrod.scene.meeting.facing import Opposite, oppose
-from dolfinrod.scene.meeting.projection import between_chords, to_chord
+from dolfinrod.scene.meeting.facing import look
+from dolfinrod.scene.meeting.projection import between_chords
 from dolfinrod.scene.rubbing import cross
 
 __all__ = ["passes"]
@@ -56,11 +56,7 @@ def _beside(start: Course, end: Course, a: Integers, b: Integers) -> bool:
     spans, u = start.spans, np.tile(np.linspace(0.0, 1.0, LOOKS), len(a))
     a, b = np.repeat(a, LOOKS), np.repeat(b, LOOKS)
 
-    def seen(course: Course) -> Opposite:
-        v, _ = to_chord(course.place(a, u), course.starts[b], course.chords[b])
-        return oppose(course, a, u, b, v)
-
-    first, last = seen(start), seen(end)
+    first, last = (look(course, a, u, b, b) for course in (start, end))
     turned = dot(first.d, last.d) < 0.0
     # The closest point of one's own rod is oneself.
     turned &= ~(spans.neighbouring(a, u, first.b, first.v) | spans.neighbouring(a, u, last.b, last.v))

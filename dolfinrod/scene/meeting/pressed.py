@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.meeting.curves import Course, between
-from dolfinrod.scene.meeting.facing import Facing, face
-from dolfinrod.scene.meeting.intervals import begin_at
+from dolfinrod.scene.meeting.facing import Facing, Opposite, face, look
 from dolfinrod.scene.meeting.neighbours import Neighbours
+from dolfinrod.scene.meeting.projection import opposite
 from dolfinrod.scene.meeting.spots import Points
 from dolfinrod.scene.pressure import NormalLaw
 
@@ -74,28 +74,27 @@ def load(
     Returns:
         Those under load.
     """
-    end, spans, a, run = courses[0], courses[0].spans, near.on[points.run], points.run
-    facing, b, v = _faced(near, points, end)
-    radius_a, radius_b, none = spans.radius[a], spans.radius[near.first[run]], np.zeros(len(a))
-    gap = facing.distance - radius_a - radius_b
-    # Closest points beyond a run are those of another, or of the rod itself.
-    within = (near.first[run] <= b) & (b <= near.last[run])
-    gap_0 = _faced(near, points, courses[1])[0].distance - radius_a - radius_b if len(courses) > 1 else gap
+    end, spans, run, u = courses[0], courses[0].spans, points.run, points.u
+    a, first, last = near.on[run], near.first[run], near.last[run]
+    seen = look(end, a, u, first, last)
+    radius_a, radius_b, none = spans.radius[a], spans.radius[first], np.zeros(len(a))
+    touching = radius_a + radius_b
+    gap = gap_0 = seen.distance - touching
+    if len(courses) > 1:
+        gap_0 = look(courses[1], a, u, first, last).distance - touching
     p, slope = law.mean(gap_0, gap, none) if mean else law.pressure(gap, none)
-    on = np.flatnonzero((p > 0.0) & within)
-    a, u, b, v, facing = a[on], points.u[on], b[on], v[on], facing.only(on)
-    level, acting = 1.0, facing
+    # Closest points beyond a run are those of another, or of the rod itself.
+    some = (p > 0.0) & (first <= seen.b) & (seen.b <= last)
+    on = slice(None) if some.all() else np.flatnonzero(some)
+    a, u, seen = a[on], u[on], seen.only(on)
+    level, facing = 1.0, face(end, a, u, seen)
+    acting = facing
     if mean:
         level = 0.5
         middle = between(courses[1], end, level)
-        acting, *_ = face(middle, a, u, middle.place(a, u), b, v)
+        acting = face(middle, a, u, Opposite(*opposite(middle.curves, a, u, seen.b, seen.v)))
     length = 0.5 * points.weight[on] * spans.length[a]
     radii, gaps = (radius_a[on], radius_b[on]), (gap_0[on], gap[on])
-    return Pressed(a, u, b, v, points.index[on], length, *radii, *gaps, p[on], slope[on], acting, facing, level)
-
-
-def _faced(near: Neighbours, points: Points, course: Course) -> tuple[Facing, Integers, Array]:
-    """What faces the points; as `face`."""
-    a = near.on[points.run]
-    x = course.place(a, points.u)
-    return face(course, a, points.u, x, *begin_at(course, near, points.run, x))
+    return Pressed(
+        a, u, seen.b, seen.v, points.index[on], length, *radii, *gaps, p[on], slope[on], acting, facing, level
+    )

@@ -2,78 +2,161 @@
 
 from __future__ import annotations
 
+from math import nan
+
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.curves import Course, dot
+from dolfinrod.scene.meeting.compiled import compiled
+from dolfinrod.scene.meeting.curves import Curves, along, spot
+from dolfinrod.scene.meeting.vectors import Point, row
 
-__all__ = ["between_chords", "project", "to_chord"]
+__all__ = ["begin", "begin_at", "between_chords", "chords_apart", "closest", "opposite"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
-Flags = NDArray[np.bool_]
 
 # Of a span; Newton's method squares it with the next step, which is not taken.
 SETTLED = 1e-10
 # Steps; a few for a point near a smooth rod, two more for every span that is passed on the way.
 MOST = 60
+EPS = float(np.finfo(float).eps)
 
 
-def project(course: Course, x: Array, span: Integers, ξ: Array) -> tuple[Integers, Array, Flags]:
-    """Closest points of rods, from span to span as far as the way there leads down.
+@compiled
+def clipped(ξ: float) -> float:
+    """From 0 to 1."""
+    return 0.0 if ξ < 0.0 else (1.0 if ξ > 1.0 else ξ)
+
+
+@compiled
+def closest(curves: Curves, x: Point, span: int, ξ: float) -> tuple[int, float, bool]:
+    """Closest point of a rod, from span to span as far as the way there leads down.
 
     (x − x_B)·x_B′ = 0 by Newton's method; at ends of rods, and at kinks that face x, the point there is the closest.
 
     Args:
-        course: The rods.
-        x: Points, shape (n, 3) [m].
-        span: Where the search for each begins, shape (n,).
+        curves: The rods.
+        x: A point [m].
+        span: Where the search begins.
         ξ: Likewise.
 
     Returns:
-        Spans, coordinates on them, and whether it is a point of no smooth part, each of shape (n,).
+        Span, coordinate on it, and whether it is a point of no smooth part.
     """
-    span, ξ, held = span.copy(), ξ.copy(), np.zeros(len(span), dtype=bool)
-    hopped, live = np.zeros(len(span), dtype=np.int8), np.arange(len(span))
+    hopped = 0
     for _ in range(MOST):
-        if not len(live):
+        dt = speed = bend = 0.0
+        for i in range(3):
+            x_B, t, t_v = along(curves.c, span, i, ξ)
+            dt += (x[i] - x_B) * t
+            speed += t * t
+            bend += (x[i] - x_B) * t_v
+        to = ξ + dt / (speed - bend if speed > bend else speed)
+        still = abs(to - ξ) <= SETTLED
+        out = 1 if to > 1.0 else (-1 if to < 0.0 else 0)
+        if out != 0 and not still and ξ == 0.5 * (out + 1):
+            if not (curves.onward[span] if out > 0 else curves.back[span]) or hopped == -out:
+                return span, ξ, True
+            span, ξ, hopped = span + out, 0.5 * (1 - out), out
+            continue
+        ξ, hopped = clipped(to), 0
+        if still:
             break
-        at, here = span[live], ξ[live]
-        x_B, t, bend = course.at(at, here)
-        d, speed = x[live] - x_B, dot(t, t)
-        κ = speed - dot(d, bend)
-        to = here + dot(d, t) / np.where(κ > 0.0, κ, speed)
-        still = np.abs(to - here) <= SETTLED
-        out = (to > 1.0).astype(np.int8) - (to < 0.0)
-        edge = (out != 0) & (here == 0.5 * (out + 1)) & ~still
-        goes_on = np.where(out > 0, course.spans.onward[at], course.spans.back[at])
-        stuck = edge & (~goes_on | (hopped[live] == -out))
-        hop = edge & ~stuck
-        span[live], hopped[live] = at + np.where(hop, out, 0), np.where(hop, out, 0)
-        ξ[live] = np.where(hop, 0.5 * (1 - out), np.clip(to, 0.0, 1.0))
-        held[live] = stuck
-        live = live[~(still | stuck)]
-    return span, ξ, held
+    return span, ξ, False
 
 
-def to_chord(x: Array, start: Array, chord: Array) -> tuple[Array, Array]:
-    """Closest points of chords.
+@compiled
+def opposite(
+    curves: Curves, a: Integers, u: Array, span: Integers, ξ: Array
+) -> tuple[Integers, Array, Array, Array, Array]:
+    """What lies opposite points.
 
     Args:
-        x: Points, shape (n, 3) [m].
-        start: Where the chords begin, shape (n, 3) [m].
-        chord: From there to their ends.
+        curves: The rods.
+        a: Spans of the points, shape (n,).
+        u: Places on them.
+        span: From where on it is looked for, shape (n,).
+        ξ: Likewise.
 
     Returns:
-        Their places on the chords, from 0 to 1, and their distances squared, shape (n,) [–, m²].
+        Spans where it lies, coordinates v there, the way from there to the points, shape (n, 3) [m], dx_B/dv,
+        shape (n, 3) [m], and 1/(|t|² − d·x_B″), zero where it is held, shape (n,) [1/m²].
     """
-    v = np.clip(dot(x - start, chord) / dot(chord, chord), 0.0, 1.0)
-    d = x - start - v[:, None] * chord
-    return v, dot(d, d)
+    n = len(a)
+    b, v, d, t, follow = np.empty(n, np.intp), np.empty(n), np.empty((n, 3)), np.empty((n, 3)), np.empty(n)
+    for i in range(n):
+        x, κ = spot(curves.c, a[i], u[i]), 0.0
+        b[i], v[i], held = closest(curves, x, span[i], ξ[i])
+        for j in range(3):
+            x_B, t[i, j], t_v = along(curves.c, b[i], j, v[i])
+            d[i, j] = x[j] - x_B
+            κ += t[i, j] * t[i, j] - d[i, j] * t_v
+        follow[i] = 0.0 if held or not κ > 0.0 else 1.0 / κ
+    return b, v, d, t, follow
 
 
+@compiled
+def begin(curves: Curves, x: Point, first: int, last: int) -> tuple[int, float]:
+    """Closest point of the chords of a run, from which that of the curves is looked for: a span and a place on it."""
+    best, place, least = first, nan, nan
+    for span in range(first, last + 1):
+        dt = speed = 0.0
+        for i in range(3):
+            chord = curves.chord[span, i]
+            dt += (x[i] - curves.c[span, 0, i]) * chord
+            speed += chord * chord
+        v, square = clipped(dt / speed), 0.0
+        for i in range(3):
+            square += (x[i] - curves.c[span, 0, i] - v * curves.chord[span, i]) ** 2
+        if span == first or square < least:
+            best, place, least = span, v, square
+    return best, place
+
+
+@compiled
+def begin_at(curves: Curves, a: Integers, u: Array, first: Integers, last: Integers) -> tuple[Integers, Array]:
+    """The same for points of spans a at u, each of which has its run, shape (n,) all."""
+    b, v = np.empty(len(a), np.intp), np.empty(len(a))
+    for i in range(len(a)):
+        b[i], v[i] = begin(curves, spot(curves.c, a[i], u[i]), first[i], last[i])
+    return b, v
+
+
+@compiled
+def chords_apart(r: Point, A: Point, B: Point) -> tuple[float, float, float]:
+    """Closest points of two chords; of parallel ones, in the middle of where they run beside each other.
+
+    Args:
+        r: From where the second begins to where the first does [m].
+        A: From there to its end.
+        B: Likewise.
+
+    Returns:
+        Their places on both, from 0 to 1, and their distance squared [m²].
+    """
+    AA = AB = BB = Ar = Br = square = 0.0
+    for i in range(3):
+        AA += A[i] * A[i]
+        AB += A[i] * B[i]
+        BB += B[i] * B[i]
+        Ar += A[i] * r[i]
+        Br += B[i] * r[i]
+    across = AA * BB - AB * AB
+    if across > EPS * AA * BB:
+        u = clipped((AB * Br - BB * Ar) / across)
+    else:
+        u = 0.5 * (clipped(-Ar / AA) + clipped((AB - Ar) / AA))
+    v = clipped((AB * u + Br) / BB)
+    u = clipped((AB * v - Ar) / AA)
+    for i in range(3):
+        square += (r[i] + u * A[i] - v * B[i]) ** 2
+    return u, v, square
+
+
+@compiled
 def between_chords(a: Array, A: Array, b: Array, B: Array) -> tuple[Array, Array, Array]:
-    """Closest points of pairs of chords; of parallel ones, in the middle of where they run beside each other.
+    """The same for pairs of chords.
 
     Args:
         a: Where the first begin, shape (n, 3) [m].
@@ -82,16 +165,11 @@ def between_chords(a: Array, A: Array, b: Array, B: Array) -> tuple[Array, Array
         B: From there to their ends.
 
     Returns:
-        Their places on both, from 0 to 1, and their distances squared, each of shape (n,) [–, –, m²].
+        Each of shape (n,) [–, –, m²].
     """
-    r, AA, AB, BB = a - b, dot(A, A), dot(A, B), dot(B, B)
-    Ar, Br = dot(A, r), dot(B, r)
-    ends = np.sort(np.clip(np.stack([-Ar, AB - Ar]) / AA, 0.0, 1.0), axis=0)
-    across = AA * BB - AB**2
-    askew = across > np.finfo(float).eps * AA * BB
-    u = np.where(askew, (AB * Br - BB * Ar) / np.where(askew, across, 1.0), ends.mean(axis=0))
-    u = np.clip(u, 0.0, 1.0)
-    v = np.clip((AB * u + Br) / BB, 0.0, 1.0)
-    u = np.clip((AB * v - Ar) / AA, 0.0, 1.0)
-    d = r + u[:, None] * A - v[:, None] * B
-    return u, v, dot(d, d)
+    n = len(a)
+    u, v, square = np.empty(n), np.empty(n), np.empty(n)
+    for i in range(n):
+        r = a[i, 0] - b[i, 0], a[i, 1] - b[i, 1], a[i, 2] - b[i, 2]
+        u[i], v[i], square[i] = chords_apart(r, row(A, i), row(B, i))
+    return u, v, square

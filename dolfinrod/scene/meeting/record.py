@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.meetings import Meetings
-from dolfinrod.scene.meeting.coupling import gather, sums
 from dolfinrod.scene.meeting.curves import Spans
 from dolfinrod.scene.meeting.pressed import Pressed
 from dolfinrod.scene.meeting.spots import GAUSS
@@ -18,6 +17,17 @@ Integers = NDArray[np.intp]
 
 # Places between Gauss points at which the least gap is looked for.
 LOOKS = 33
+
+
+def _gather(nodes: Integers, values: Array, n_nodes: int) -> Array:
+    """Sums at nodes, shape (n_nodes, 3), of values of shape (..., 3) given for nodes of shape (...)."""
+    at, rows = nodes.ravel(), values.reshape(-1, 3)
+    return np.stack([_sums(at, rows[:, i], n_nodes) for i in range(3)], axis=1)
+
+
+def _sums(at: Integers, values: Array, n: int) -> Array:
+    """Of values, shape (m,), at each of n places."""
+    return np.bincount(at, values, n).astype(float, copy=False)
 
 
 def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDArray[np.int8]) -> Meetings:
@@ -36,13 +46,13 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
     a, b, facing = pressed.a, pressed.b, pressed.facing
     _, spot = np.unique(a * len(spans.radius) + spans.rod[b], return_inverse=True)
     n, weight = int(spot.max(initial=-1)) + 1, pressed.length * pressed.p
-    load = sums(spot, weight, n)
+    load = _sums(spot, weight, n)
 
     def mean(values: Array) -> Array:
-        return sums(spot, weight * values, n) / load
+        return _sums(spot, weight * values, n) / load
 
-    normal = gather(spot, weight[:, None] * facing.normal, n)
-    rubs = gather(spot, pressed.length[:, None] * traction, n)
+    normal = _gather(spot, weight[:, None] * facing.normal, n)
+    rubs = _gather(spot, pressed.length[:, None] * traction, n)
     slides, rods = np.zeros(n, dtype=np.int8), np.zeros((2, n), dtype=np.int64)
     np.maximum.at(slides, spot, state)
     rods[:, spot] = spans.rod[a], spans.rod[b]
@@ -51,9 +61,9 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
         mean(spans.along(a, pressed.u)),
         rods[1],
         mean(spans.along(b, pressed.v)),
-        gather(spot, weight[:, None] * _between(pressed, x), n) / load[:, None],
+        _gather(spot, weight[:, None] * _between(pressed, x), n) / load[:, None],
         least(pressed, spot, n),
-        sums(spot, 2.0 * pressed.length, n),
+        _sums(spot, 2.0 * pressed.length, n),
         normal + rubs,
         normal / np.linalg.norm(normal, axis=1)[:, None],
         rubs,

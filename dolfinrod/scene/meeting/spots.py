@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.meeting.compiled import compiled
 from dolfinrod.scene.meeting.curves import Course
 from dolfinrod.scene.meeting.intervals import intervals
 from dolfinrod.scene.meeting.neighbours import Neighbours
@@ -19,7 +20,7 @@ Integers = NDArray[np.intp]
 
 # The line load of a crossing is a parabola along a rod, but for its depth against the distance of the centrelines; four
 # points integrate its square, the energy, with the first power of that, too.
-GAUSS = tuple(0.5 * part for part in np.polynomial.legendre.leggauss(4))
+GAUSS = 0.5 + 0.5 * np.polynomial.legendre.leggauss(4)[0], 0.5 * np.polynomial.legendre.leggauss(4)[1]
 # A law with one kink more than at its foot, in the mean of two loads.
 MOST_POINTS = 7 * len(GAUSS[0])
 
@@ -71,13 +72,33 @@ def points(marks: Array) -> Points:
     Returns:
         Those with weight, run by run.
     """
-    none = marks[:, 0] >= marks[:, 1]
-    # Where nothing is within a smaller reach, its marks fall together with the first of all.
-    first = np.where(none, 1.0, marks[:, 0]).min(axis=0)
-    ends = np.sort(np.where(none[:, None], first, marks).reshape(2 * len(marks), marks.shape[2]), axis=0)
-    long = np.diff(ends, axis=0).T
-    count = len(GAUSS[0]) * long.shape[1]
-    place = (ends[:-1].T[:, :, None] + long[:, :, None] * (0.5 + GAUSS[0])).reshape(len(long), count)
-    weight = (long[:, :, None] * GAUSS[1]).reshape(len(long), count)
-    run, index = np.nonzero(weight > 0.0)
-    return Points(run, index, place[run, index], weight[run, index])
+    return Points(*_points(marks, *GAUSS))
+
+
+@compiled
+def _points(marks: Array, places: Array, weights: Array) -> tuple[Integers, Integers, Array, Array]:
+    """As `Points`, with places and weights from 0 to 1."""
+    kinds, n_runs = len(marks), marks.shape[2]
+    most = n_runs * (2 * kinds - 1) * len(places)
+    run, index, u, weight = np.empty(most, np.intp), np.empty(most, np.intp), np.empty(most), np.empty(most)
+    n, ends = 0, np.empty(2 * kinds)
+    for r in range(n_runs):
+        first, some = 1.0, 0
+        for k in range(kinds):
+            if marks[k, 0, r] < marks[k, 1, r]:
+                first, some = min(first, marks[k, 0, r]), some + 1
+        # Where nothing is within a smaller reach, its marks fall together with the first of all.
+        ends[:] = first
+        for k in range(kinds):
+            if marks[k, 0, r] < marks[k, 1, r]:
+                ends[2 * k], ends[2 * k + 1] = marks[k, 0, r], marks[k, 1, r]
+        if some > 1:
+            ends.sort()
+        for k in range(2 * kinds - 1):
+            long = ends[k + 1] - ends[k]
+            for g in range(len(places)):
+                if long * weights[g] > 0.0:
+                    run[n], index[n] = r, k * len(places) + g
+                    u[n], weight[n] = ends[k] + long * places[g], long * weights[g]
+                    n += 1
+    return run[:n], index[:n], u[:n], weight[:n]
