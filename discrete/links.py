@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.products import Applied
 from discrete.unknowns import AXIAL, N_NODE, SPIN, X
 
 if TYPE_CHECKING:
@@ -45,27 +44,16 @@ class Links:
     def change(self, d: Array) -> Array:
         """Change of all forces and moments with increments of all nodes, shape (n_nodes, 7) both."""
         change = np.zeros_like(d)
-        dx, turn = d[:, X] * self.units.length, d[:, SPIN]
+        dx, turn = np.multiply(d[:, X], self.units.length, order="C"), np.zeros((len(d), 3))
         if self.turning is not None:
-            turn = np.matmul(self.turning, turn[:, :, None])[:, :, 0]
-        for force_x, *rubbing in self._operators:
-            change[:, X] += force_x(dx)
-            if rubbing:
-                force_turn, moment_x, moment_turn = rubbing
-                change[:, X] += force_turn(turn)
-                change[:, SPIN] += moment_x(dx) + moment_turn(turn)
+            turn = np.matmul(self.turning, d[:, SPIN, None])[:, :, 0]
+        for coupling in self.couplings:
+            force, moment = coupling.times(dx, turn)
+            change[:, X] += force
+            change[:, SPIN] += moment
         change[:, X] /= self.units.force
         change[:, SPIN] /= self.units.moment
         return change
-
-    @cached_property
-    def _operators(self) -> list[tuple[Applied, ...]]:
-        """What each meeting answers: of forces to places, and where anything rubs to turns, then of moments."""
-        rubs = self.turning is not None
-        every = [
-            (c, (c.force_x, c.force_turn, c.moment_x, c.moment_turn) if rubs else (c.force_x,)) for c in self.couplings
-        ]
-        return [tuple(Applied(c, part) for part in parts if part is not None) for c, parts in every]
 
     @cached_property
     def nodal(self) -> tuple[Indices, Array]:
@@ -92,7 +80,7 @@ class Links:
         for coupling in self.couplings:
             m = coupling.nodes.shape[1]
             row, column = np.repeat(coupling.nodes, m, axis=1).reshape(-1), np.tile(coupling.nodes, (1, m)).reshape(-1)
-            other = np.flatnonzero(row != column)
+            other = np.flatnonzero(np.tile(~np.eye(m, dtype=bool).reshape(-1), len(coupling.nodes)))
             row, column = row[other], column[other]
             blocks = (coupling.f_x, coupling.f_turn, coupling.m_x, coupling.m_turn)
             paired = (None if f is None else f.transpose(0, 1, 3, 2, 4).reshape(-1, 3, 3)[other] for f in blocks)
