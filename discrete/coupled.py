@@ -12,6 +12,7 @@ Source: Saad & Schultz, SIAM J. Sci. Stat. Comput. 7, 1986, DOI 10.1137/0907058.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import hypot
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,10 +32,14 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Entries = tuple[NDArray[np.int64], NDArray[np.int64], Array]
 
-__all__ = ["CoupledInverse", "UncoupledError", "factorised", "solved", "unforeseen"]
+__all__ = ["FINE", "CoupledInverse", "Hessenberg", "UncoupledError", "factorised", "forcing", "joined", "solved"]
 
+# Forces between rods left out of balance, over those not foreseen, where increments shrink slowly and at best.
+FINE, FINEST = 1e-2, 1e-6
 # Iterations in which forces are found or never.
 MOST_ITERATIONS = 60
+# Part of a vector below which what is left of it is not at right angles to what has been taken off, to round-off.
+HALVED = 0.5
 
 
 class UncoupledError(SingularTangentError):
@@ -135,10 +140,26 @@ def _in_axes(tangent: Tangent, entries: Entries) -> Entries:
     return turned.row, turned.col, turned.data
 
 
-def unforeseen(
+def forcing(size: float, before: float, goal: float) -> float:
+    """Part of forces between rods that the next increment may leave out of balance.
+
+    It need not be found any finer than the tangent foresees it, nor than what is to be left at last.
+
+    Args:
+        size: Of the last increment.
+        before: Of the one before it.
+        goal: For what the last increment of a step leaves.
+    """
+    if not size * before > 0.0:
+        return FINE
+    ratio = size / before
+    return max(FINEST, min(FINE, max(0.1 * ratio, 0.1 * goal / (size * ratio))))
+
+
+def joined(
     start: Array, answer: Callable[[Array], Array], change: Callable[[Array], Array], fine: float
 ) -> Array | None:
-    """Forces f with f = Δ(d₀ + A⁻¹ f).
+    """Increments d = d₀ + A⁻¹ f with the forces f = Δ(d).
 
     Args:
         start: d₀, of any shape.
@@ -147,30 +168,75 @@ def unforeseen(
         fine: Part of Δ(d₀) that may stay out of balance.
 
     Returns:
-        f; None where it is not found.
+        d; None where it is not found.
     """
     first = change(start)
     size = float(np.linalg.norm(first))
     if size == 0.0:
-        return first
-    V, H = np.zeros((MOST_ITERATIONS + 1, first.size)), np.zeros((MOST_ITERATIONS + 1, MOST_ITERATIONS))
+        return start
+    V = np.empty((MOST_ITERATIONS + 1, first.size))
     V[0] = first.reshape(-1) / size
+    caused: list[Array] = []
+    fit = Hessenberg(size)
     for k in range(MOST_ITERATIONS):
         v = V[k].reshape(first.shape)
-        w = (v - change(answer(v))).reshape(-1)
-        # Once more, as round-off of the first time is as large as what is left.
-        for _ in range(2):
-            along = V[: k + 1] @ w
-            w -= along @ V[: k + 1]
-            H[: k + 1, k] += along
-        H[k + 1, k] = np.linalg.norm(w)
-        goal = np.zeros(k + 2)
-        goal[0] = size
-        y, _, _, _ = np.linalg.lstsq(H[: k + 2, : k + 1], goal, rcond=None)
-        left = float(np.linalg.norm(H[: k + 2, : k + 1] @ y - goal))
+        caused.append(answer(v))
+        w = (v - change(caused[k])).reshape(-1)
+        column = _beside(w, V[: k + 1])
+        left = fit.grow(column)
         if left <= fine * size:
-            return np.asarray((y @ V[: k + 1]).reshape(first.shape))
-        if not np.isfinite(left) or H[k + 1, k] == 0.0:
+            return start + sum(y * d for y, d in zip(fit.solution(), caused, strict=True))
+        if not np.isfinite(left) or column[-1] == 0.0:
             return None
-        V[k + 1] = w / H[k + 1, k]
+        np.divide(w, column[-1], out=V[k + 1])
     return None
+
+
+def _beside(w: Array, V: Array) -> Array:
+    """Take the parts along the rows of V off w; these, and the size of what is left, shape (k + 2,)."""
+    along, before = np.zeros(len(V)), float(np.linalg.norm(w))
+    while True:
+        part = V @ w
+        w -= part @ V
+        along += part
+        size = float(np.linalg.norm(w))
+        # Once more where round-off of the first time is as large as what is left.
+        if not size < HALVED * before:
+            return np.append(along, size)
+        before = size
+
+
+class Hessenberg:
+    """Least squares H y ≈ (size, 0, 0, …) with a matrix H, zero below its first subdiagonal, that grows by columns.
+
+    Args:
+        size: Of the right-hand side.
+    """
+
+    def __init__(self, size: float) -> None:
+        self._columns: list[Array] = []
+        self._turns: list[tuple[float, float]] = []
+        self._right = [size]
+
+    def grow(self, column: Array) -> float:
+        """Size of what is left with one more column, shape (k + 2,)."""
+        h = column.tolist()
+        for i, (c, s) in enumerate(self._turns):
+            h[i], h[i + 1] = c * h[i] + s * h[i + 1], c * h[i + 1] - s * h[i]
+        k = len(self._turns)
+        r = hypot(h[k], h[k + 1])
+        c, s = (h[k] / r, h[k + 1] / r) if r > 0.0 else (1.0, 0.0)
+        h[k] = r
+        self._turns.append((c, s))
+        self._columns.append(np.array(h[: k + 1]))
+        g = self._right.pop()
+        self._right += [c * g, -s * g]
+        return abs(self._right[-1])
+
+    def solution(self) -> Array:
+        """y, one a column."""
+        y = np.array(self._right[:-1])
+        for k in range(len(y) - 1, -1, -1):
+            y[k] /= self._columns[k][k]
+            y[:k] -= y[k] * self._columns[k][:k]
+        return y

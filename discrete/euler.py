@@ -13,6 +13,7 @@ import numpy as np
 
 from discrete.approach import approach
 from discrete.assembly import SingularTangentError
+from discrete.coupled import FINE, forcing
 from discrete.ends import Ends
 from discrete.factors import Workshop
 from discrete.rotation import tangents
@@ -45,8 +46,6 @@ FINEST = 1e-12
 # Increments, in L and radians, below which only round-off keeps them from shrinking.
 ROUND_OFF = 1e-11
 MOST_ITERATIONS = 30
-# Forces between rods left out of balance, over those not foreseen, where increments shrink slowly and at best.
-FINE, FINEST_FORCES = 1e-3, 1e-6
 # Iterations after which increments are halved that do not shrink: rods that touch in one and not in the next.
 PATIENT = 4
 # An increment, in L and radians, beyond which positions and turns as unknowns lead anywhere.
@@ -157,16 +156,19 @@ class BackwardEuler:
             step.move(found.d if settled or iteration < PATIENT or found.size < 0.5 * before else 0.5 * found.d)
             goal = min(TOLERANCE * step.motion(), FINEST)
             exact = found.size == 0.0 or (found.size < ROUND_OFF and found.size > 0.25 * before)
-            done = exact or (iteration > 1 and workshop.wear.enough(found.size, before, goal))
+            rough = 0.0 if touched is None else fine * found.size
+            done = exact or (iteration > 1 and rough <= goal and workshop.wear.enough(found.size, before, goal))
             if iteration > 2 and not fresh and settled:
                 left = max(left, found.size / before)
             if done and (walls is None or walls.agree(step, exact=exact)):
                 if workshop.wear.see(iteration - stirred, left):
                     workshop.factors = None
                 return self._taken(step, found, balance, level, spent + iteration)
-            if not fresh and settled and iteration > 1 and workshop.wear.slow(found.size, before, goal):
+            # Rods that touch change more than any factors could foresee, before it tells how old these are.
+            told = iteration > (1 if touched is None else PATIENT)
+            if not fresh and settled and told and workshop.wear.slow(found.size, before, goal):
                 workshop.factors = None
-            fine = max(FINEST_FORCES, min(FINE, 0.1 * found.size / before)) if iteration > 1 else FINE
+            fine = forcing(found.size, before, goal) if iteration > 1 else FINE
             before = found.size
         raise StepLostError(f"no convergence in {MOST_ITERATIONS} iterations")
 

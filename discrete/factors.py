@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.assembly import SingularTangentError
-from discrete.coupled import UncoupledError, factorised, unforeseen
+from discrete.coupled import UncoupledError, factorised, joined
 from discrete.loose import loose
 from discrete.nodes import NodalSystem
-from discrete.rows import of_vectors, turn, turn_back
+from discrete.rows import of_vectors, rotated, turn, turn_back
 from discrete.solution import Factors, Increments
 from discrete.unknowns import AXIAL, N_NODE, SPIN, SPIN_J, X_J, X
 from discrete.wear import Wear
@@ -175,8 +175,8 @@ class Workshop:
         self.solved += 1
         if touched is not None:
             d, own = self._joined(factors, touched, Q, d, fine)
-            missing = missing + touched.change(d.T).T
         if self._whole is not None:
+            missing = missing if touched is None else missing + touched.change(d.T).T
             self._whole.move(d, missing, factors.dt)
         size = float(np.abs(d[:AXIAL]).max())
         if not isfinite(size):
@@ -185,31 +185,27 @@ class Workshop:
 
     def _joined(self, factors: Factors, touched: Touched, Q: Array, d: Array, fine: float) -> tuple[Array, Array]:
         """Increments with what rods do to one another beyond what is in the factors, in space and turned back."""
-        known = factors.touched
+        known = factors.known(Q)
 
         def answer(force: Array) -> Array:
-            right = _turned(turn_back, Q, force.T).T
+            right = rotated(turn_back, Q, force.T).T
             flat = factors.tangent.in_axes(right).reshape(-1) if len(factors.tangent.guided) else right.reshape(-1)
             flat[self._held] = 0.0
             return self._solution(factors, flat, Q)[0].T
 
         def change(d: Array) -> Array:
-            beyond = touched.change(d)
-            if known is not None:
-                beyond -= _turned(turn, Q, known.change(_turned(turn_back, Q, d.T).T).T).T
-            return beyond
+            return touched.change(d) - known(d)
 
-        force = unforeseen(d.T, answer, change, fine)
-        if force is None:
+        found = joined(d.T, answer, change, fine)
+        if found is None:
             raise UncoupledError
-        d = d + answer(force).T
-        return d, _turned(turn_back, Q, d)
+        return found.T, rotated(turn_back, Q, found.T)
 
     def _solution(self, factors: Factors, right: Array, Q: Array) -> tuple[Array, Array]:
         """Increments in space and turned back, shapes (7, n_nodes), for a right-hand side."""
         solution = factors.inverse.times(right[:, None]).reshape(self._right.shape)
         own = of_vectors(factors.tangent.in_space(solution) if len(factors.tangent.guided) else solution)
-        return _turned(turn, Q, own), own
+        return rotated(turn, Q, own), own
 
     def _guide(self, factors: Factors, right: Array, R: Array) -> None:
         """Take the answers λ c of guides off what is out of balance, and turn spins into the axes of the tangent."""
@@ -224,10 +220,3 @@ class Workshop:
         guides = self._supports.guides
         θ_a, c, _ = guides.linearized(R)
         right[guides.nodes, SPIN.start] = -θ_a / np.einsum("mi,mi->m", c, factors.tangent.axes[:, :, 0])
-
-
-def _turned(way: Callable[[Array, Array], Array], Q: Array, rows: Array) -> Array:
-    """Forces or increments of all nodes, shape (7, n_nodes), turned or turned back."""
-    n, turned = rows.shape[1], rows.copy()
-    turned[:AXIAL] = way(Q, rows[:AXIAL].reshape(2, 3, n)).reshape(AXIAL, n)
-    return turned

@@ -44,9 +44,9 @@ class Links:
     def change(self, d: Array) -> Array:
         """Change of all forces and moments with increments of all nodes, shape (n_nodes, 7) both."""
         change = np.zeros_like(d)
-        dx, turn = d[:, X] * self.units.length, np.ascontiguousarray(d[:, SPIN])
+        dx, turn = np.multiply(d[:, X], self.units.length, order="C"), np.zeros((len(d), 3))
         if self.turning is not None:
-            turn = np.matmul(self.turning, turn[:, :, None])[:, :, 0]
+            turn = np.matmul(self.turning, d[:, SPIN, None])[:, :, 0]
         for coupling in self.couplings:
             force, moment = coupling.times(dx, turn)
             change[:, X] += force
@@ -80,7 +80,7 @@ class Links:
         for coupling in self.couplings:
             m = coupling.nodes.shape[1]
             row, column = np.repeat(coupling.nodes, m, axis=1).reshape(-1), np.tile(coupling.nodes, (1, m)).reshape(-1)
-            other = np.flatnonzero(row != column)
+            other = np.flatnonzero(np.tile(~np.eye(m, dtype=bool).reshape(-1), len(coupling.nodes)))
             row, column = row[other], column[other]
             blocks = (coupling.f_x, coupling.f_turn, coupling.m_x, coupling.m_turn)
             paired = (None if f is None else f.transpose(0, 1, 3, 2, 4).reshape(-1, 3, 3)[other] for f in blocks)

@@ -9,12 +9,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from discrete.unknowns import AXIAL
+
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-__all__ = ["cross", "dot", "of_frames", "of_vectors", "turn", "turn_back", "turned"]
+__all__ = ["cross", "dot", "of_frames", "of_vectors", "rotated", "turn", "turn_back", "turned"]
 
 # With the first two components repeated behind the last, every component finds its next two behind it.
 _AROUND = np.array([0, 1, 2, 0, 1])
@@ -52,6 +56,14 @@ def turn(R: Array, vectors: Array) -> Array:
 def turn_back(R: Array, vectors: Array) -> Array:
     """Vectors Rᵀ v, shapes as for `turn`."""
     return np.einsum("jin,ajn->ain", R, vectors)
+
+
+def rotated(way: Callable[[Array, Array], Array], Q: Array, rows: Array) -> Array:
+    """Forces or increments of all nodes, shape (7, n_nodes), by `turn` or `turn_back`; those along elements stay."""
+    n, new = rows.shape[1], np.empty_like(rows)
+    new[:AXIAL] = way(Q, rows[:AXIAL].reshape(2, 3, n)).reshape(AXIAL, n)
+    new[AXIAL] = rows[AXIAL]
+    return new
 
 
 def turned(R: Array, θ: Array) -> Array:

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.rows import turn
+from discrete.rows import rotated, turn, turn_back
 from discrete.unknowns import AXIAL
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from discrete.assembly import Inverse
@@ -47,6 +49,29 @@ class Factors:
     askew: NDArray[np.int64]
     tangent: Tangent
     inverse: Inverse | CoupledInverse
+
+    def known(self, Q: Array) -> Callable[[Array], Array]:
+        """What surfaces and other rods answer as far as it is in the factors: forces to increments, (n_nodes, 7) both.
+
+        Args:
+            Q: What sections have turned by since, shape (3, 3, n_nodes).
+        """
+        touched = self.touched
+        if touched is None:
+            return np.zeros_like
+        if touched.links is not None:
+            return lambda d: rotated(turn, Q, touched.change(rotated(turn_back, Q, d.T).T).T).T
+        nodes, m = touched.nodes, len(touched.nodes)
+        q = Q[:, :, nodes].transpose(2, 0, 1)[:, None, None]
+        parts = touched.blocks.reshape(m, 2, 3, 2, 3).transpose(0, 1, 3, 2, 4)
+        blocks = (q @ parts @ np.swapaxes(q, 3, 4)).transpose(0, 1, 3, 2, 4).reshape(m, AXIAL, AXIAL)
+
+        def change(d: Array) -> Array:
+            change = np.zeros_like(d)
+            change[nodes, :AXIAL] = -np.matmul(blocks, d[nodes, :AXIAL, None])[:, :, 0]
+            return change
+
+        return change
 
 
 @dataclass(frozen=True, eq=False)

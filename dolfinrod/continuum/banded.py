@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mpi4py import MPI
+
 import numpy as np
 from scipy.linalg.lapack import dgbtrf, dgbtrs
+
+from dolfinrod.continuum.backend import order_by_neighbours
 
 if TYPE_CHECKING:
     from petsc4py import PETSc
 
     from numpy.typing import NDArray
 
-__all__ = ["Band", "BandedLU"]
+__all__ = ["Band", "BandedLU", "own_band"]
 
 
 class Band:
@@ -40,16 +44,27 @@ class Band:
         self.storage = np.zeros(n * self.rows)
 
 
+def own_band(A: PETSc.Mat) -> Band | None:
+    """Layout of the unknowns of each rank; None where some depend on those of another, as in a rod that is cut."""
+    start, end = A.getOwnershipRange()
+    columns = A.getValuesCSR()[1]
+    cut = bool(((columns < start) | (columns >= end)).any())
+    if A.getComm().tompi4py().allreduce(cut, op=MPI.LOR):
+        return None
+    own = A.getDiagonalBlock()
+    return Band(own, order_by_neighbours(own))
+
+
 class BandedLU:
-    """A PETSc preconditioner (type python) that is LAPACK's banded LU with partial pivoting.
+    """A PETSc preconditioner (type python): LAPACK's banded LU with partial pivoting, of each rank's own unknowns.
 
     Cost is linear in the number of elements; a zero compliance, whose diagonal is zero, needs the pivoting.
 
     Args:
-        band: Layout of the matrix.
+        band: Layout of the matrix, or of what each rank has of it where no rank's unknowns depend on another's.
 
     Attributes:
-        singular: Whether the last factorisation met a zero pivot.
+        singular: Whether the last factorisation met a zero pivot, on any rank.
     """
 
     singular = False
@@ -61,10 +76,11 @@ class BandedLU:
         """Factorise the operator."""
         band = self._band
         band.storage[:] = 0.0
-        band.storage[band.entries] = pc.getOperators()[1].getValuesCSR()[2]
+        A = pc.getOperators()[1]
+        band.storage[band.entries] = A.getDiagonalBlock().getValuesCSR()[2]
         matrix = band.storage.reshape(-1, band.rows).T
         self._lu, self._pivots, info = dgbtrf(matrix, band.width, band.width, overwrite_ab=True)
-        self.singular = info > 0
+        self.singular = A.getComm().tompi4py().allreduce(info > 0, op=MPI.LOR)
 
     def sign(self) -> float:
         """Sign of the determinant, zero where it is."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.continuum.coupled import CoupledLU
 from dolfinrod.continuum.newton import NEGLIGIBLE, TOLERANCE, Newton, Outcome
 from dolfinrod.continuum.watch import Unwatched
 
@@ -92,8 +93,16 @@ class Chord(Newton):
         ratio = size / before
         self._contracted = self._contracted or ratio <= SLOW
         self._stalls = ratio > STALLED and (self._is_fresh or self._contracted)
-        self._serves = self._is_fresh or ratio <= SLOW or size < TOLERANCE or self._ends
+        self._serves = self._is_fresh or ratio <= SLOW or size < TOLERANCE or self._ends or self._meets_anew
         return size * max(ratio, size)
+
+    @property
+    def _meets_anew(self) -> bool:
+        """Whether rods touch one another elsewhere than before: of that a tangent is never old, it stands beside it."""
+        walls, pairs = self.problem.walls, self.problem.pairs
+        if pairs is None or not isinstance(self._lu, CoupledLU) or not self._lu.follows:
+            return False
+        return pairs.changed and not (walls is not None and walls.changed)
 
     @property
     def _ends(self) -> bool:

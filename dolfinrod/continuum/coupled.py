@@ -19,6 +19,7 @@ from petsc4py import PETSc
 import numpy as np
 from scipy.sparse import csr_array
 
+from dolfinrod.continuum.banded import own_band
 from dolfinrod.continuum.direct import LIBRARY_ERROR, ROOM, lu
 from dolfinrod.scene import Dynamic
 
@@ -26,9 +27,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.banded import BandedLU
-    from dolfinrod.continuum.links import Links
     from dolfinrod.continuum.pairs import Pairs
     from dolfinrod.continuum.problem import Problem
+
+    Array = NDArray[np.float64]
+    Integers = NDArray[np.int64]
+    Entries = tuple[NDArray[np.int32], NDArray[np.int32], Array]
 
 __all__ = ["CoupledLU", "coupled", "linear_solver"]
 
@@ -49,8 +53,8 @@ def linear_solver(pc: PETSc.PC, P: PETSc.Mat, problem: Problem) -> BandedLU | Co
 
 
 def _linked(P: PETSc.Mat, pairs: Pairs) -> PETSc.Mat:
-    """C: what links different nodes, at the state at which P was assembled last."""
-    every = [_entries(pairs, links) for links in pairs.links]
+    """C at the present state: what is not in P, as it was assembled last."""
+    every = [_inside(pairs), *(_entries(pairs, nodes, blocks) for nodes, blocks in pairs.links().blocks())]
     rows, columns, values = (np.concatenate(parts) for parts in zip(*every, strict=True))
     comm, (start, end), N = P.getComm(), P.getOwnershipRange(), P.getSize()[0]
     if comm.size > 1:
@@ -63,13 +67,19 @@ def _linked(P: PETSc.Mat, pairs: Pairs) -> PETSc.Mat:
     return PETSc.Mat().createAIJ(P.getSizes(), csr=csr, comm=comm)
 
 
-def _entries(pairs: Pairs, links: Links) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]:
+def _entries(pairs: Pairs, nodes: Integers, blocks: Array) -> Entries:
     """Rows, columns and values that are not zero, numbered over all ranks."""
-    m, M, n = links.blocks.shape[:3]
-    dofs = pairs.everywhere.dofs[links.nodes][:, :, :n].reshape(m, M * n)
-    blocks = links.blocks.reshape(m, M * n, M * n)
+    m, M, n = blocks.shape[:3]
+    dofs = pairs.everywhere.dofs[nodes][:, :, :n].reshape(m, M * n)
+    blocks = blocks.reshape(m, M * n, M * n)
     p, i, j = np.nonzero(blocks)
     return dofs[p, i], dofs[p, j], blocks[p, i, j]
+
+
+def _inside(pairs: Pairs) -> Entries:
+    """What nodes feel of what they do themselves beyond what is in P."""
+    beyond = pairs.links().nodal - pairs.inside
+    return _entries(pairs, pairs.everywhere.own[:, None], beyond[:, None, :, None])
 
 
 @contextmanager
@@ -84,15 +94,9 @@ def coupled(P: PETSc.Mat, problem: Problem) -> Iterator[PETSc.Mat]:
 
 
 def _whole(P: PETSc.Mat, pairs: Pairs) -> PETSc.Mat:
-    C = _linked(P, pairs)
-    J = _sum(P, C)
-    C.destroy()
-    return J
-
-
-def _sum(P: PETSc.Mat, C: PETSc.Mat) -> PETSc.Mat:
-    J = P.copy()
+    J, C = P.copy(), _linked(P, pairs)
     J.axpy(1.0, C, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
+    C.destroy()
     return J
 
 
@@ -100,19 +104,31 @@ class Unforeseen:
     """The operator 1 + C P⁻¹ on forces f with which J x = b has the solution x = P⁻¹ (b + f): a PETSc matrix (python).
 
     Args:
-        C: What links different nodes.
+        pairs: Whose tangent P holds in part, C being the rest at the present state.
         P: With factors.
+        x: Like the unknowns.
     """
 
-    def __init__(self, C: PETSc.Mat, P: PETSc.PC) -> None:
-        self.C, self._P = C, P
-        self._moved = C.createVecRight()
+    def __init__(self, pairs: Pairs, P: PETSc.PC, x: PETSc.Vec) -> None:
+        self._pairs, self._P, self._inside = pairs, P, pairs.inside
+        self._moved = x.duplicate()
+        self.renew()
+
+    def renew(self) -> None:
+        """Take C where the rods are now."""
+        self._links = self._pairs.links()
+
+    def forces(self, x: PETSc.Vec, y: PETSc.Vec) -> None:
+        """Add C x to y."""
+        at = self._pairs.at
+        u = x.array_r[at]
+        y.array[at] += self._links.times(u) - np.matmul(self._inside, u[:, :, None])[:, :, 0]
 
     def mult(self, A: PETSc.Mat, f: PETSc.Vec, y: PETSc.Vec) -> None:
         """What is out of balance of forces f once they act."""
         self._P.apply(f, self._moved)
-        self.C.mult(self._moved, y)
-        y.axpy(1.0, f)
+        f.copy(y)
+        self.forces(self._moved, y)
 
     def destroy(self, A: PETSc.Mat) -> None:
         """Free what PETSc holds."""
@@ -148,29 +164,39 @@ class CoupledLU:
     singular = False
 
     def __init__(self, problem: Problem) -> None:
-        self._problem = problem
-        self._C: PETSc.Mat | None = None
+        self._problem, d = problem, problem.discretization
+        self._band = d.band or own_band(d.matrix)
         self._factors: PETSc.PC | None = None
+        self._unforeseen: Unforeseen | None = None
         self._krylov: PETSc.KSP | None = None
+
+    @property
+    def follows(self) -> bool:
+        """Whether solutions are with C where the rods are, not where they were when the factors were made."""
+        return self._krylov is not None
+
+    @property
+    def _pairs(self) -> Pairs:
+        assert self._problem.pairs is not None
+        return self._problem.pairs
 
     def setUp(self, pc: PETSc.PC) -> None:
         """Factorise P or J."""
         self.destroy(pc)
-        assert self._problem.pairs is not None
         P = pc.getOperators()[1]
-        self._C = C = _linked(P, self._problem.pairs)
         if not isinstance(self._problem.scene.motion, Dynamic):
-            self._factors = self._factorized(P, C)
+            self._factors = self._factorized(P)
             return
         self._factors = factors = PETSc.PC().create(P.getComm())
-        band = lu(factors, P, self._problem.discretization.band)
+        band = lu(factors, P, self._band)
         factors.setUp()
         self.singular = band is not None and band.singular
-        self._krylov = _gmres(Unforeseen(C, factors), P)
+        self._unforeseen = Unforeseen(self._pairs, factors, self._problem.discretization.x.vector)
+        self._krylov = _gmres(self._unforeseen, P)
 
-    def _factorized(self, P: PETSc.Mat, C: PETSc.Mat) -> PETSc.PC:
+    def _factorized(self, P: PETSc.Mat) -> PETSc.PC:
         """J by MUMPS."""
-        J, factors = _sum(P, C), PETSc.PC().create(P.getComm())
+        J, factors = _whole(P, self._pairs), PETSc.PC().create(P.getComm())
         factors.setType(PETSc.PC.Type.LU)
         factors.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
         factors.setOperators(J)
@@ -192,7 +218,7 @@ class CoupledLU:
             assert self._factors is not None
             self._krylov.destroy()
             self._factors.destroy()
-            self._krylov, self._factors = None, self._factorized(pc.getOperators()[1], self._C)
+            self._krylov, self._factors = None, self._factorized(pc.getOperators()[1])
         if self.singular or self._factors is None:
             x.set(np.nan)
         elif self._krylov is None:
@@ -202,22 +228,23 @@ class CoupledLU:
         """Solve by GMRES; whether it could."""
         assert self._factors is not None
         assert self._krylov is not None
-        assert self._C is not None
+        assert self._unforeseen is not None
         first, f = b.duplicate(), b.duplicate()
+        first.set(0.0)
         self._factors.apply(b, x)
-        self._C.mult(x, first)
+        self._unforeseen.renew()
+        self._unforeseen.forces(x, first)
         first.scale(-1.0)
         self._krylov.solve(first, f)
-        found = self._krylov.getConvergedReason() > 0
         f.axpy(1.0, b)
         self._factors.apply(f, x)
-        first.destroy()
-        f.destroy()
-        return bool(found)
+        for forces in (first, f):
+            forces.destroy()
+        return bool(self._krylov.getConvergedReason() > 0)
 
     def destroy(self, pc: PETSc.PC) -> None:
         """Free the factors."""
-        for part in (self._krylov, self._factors, self._C):
+        for part in (self._krylov, self._factors):
             if part is not None:
                 part.destroy()
-        self._krylov = self._factors = self._C = None
+        self._krylov = self._factors = None

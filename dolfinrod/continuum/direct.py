@@ -34,7 +34,7 @@ def lu(pc: PETSc.PC, A: PETSc.Mat, band: Band | None) -> BandedLU | None:
     Args:
         pc: The preconditioner.
         A: The tangent.
-        band: Its layout as a band; None on several ranks.
+        band: Its layout as a band; None where it has none, as on several ranks.
 
     Returns:
         The band's factors, or None where MUMPS has them.

@@ -46,7 +46,8 @@ class Everywhere:
         number = np.zeros(len(problem.x), dtype=np.int64)
         number[d.dofs["r"][:, np.argsort(d.nodes), 0]] = self.cells[d.cell]
         self.own = number[self.r[:, 0]]
-        self._order = np.concatenate(self._comm.allgather(self.own))
+        every = self._comm.allgather(self.own)
+        self._order, self._counts = np.concatenate(every), np.array([len(own) for own in every])
         numbers = d.matrix.getLGMap()[0].apply(np.concatenate([self.r, self.q], axis=1).ravel())
         mine = numbers.reshape(len(self.own), -1).astype(float)
         self.dofs = self.gathered(mine).astype(np.int32)
@@ -58,8 +59,7 @@ class Everywhere:
             table[self.own] = own
             return table
         everyone = np.empty_like(table)
-        counts = self._comm.allgather(own.size)
-        self._comm.Allgatherv(np.ascontiguousarray(own), (everyone, counts))
+        self._comm.Allgatherv(np.ascontiguousarray(own), (everyone, self._counts * own.shape[1]))
         table[self._order] = everyone
         return table
 

@@ -13,7 +13,7 @@ from mpi4py import MPI
 import numpy as np
 
 from dolfinrod.continuum.everywhere import Everywhere, strands
-from dolfinrod.continuum.links import Frames, linked
+from dolfinrod.continuum.links import Frames, Links
 from dolfinrod.continuum.met import kept, remembered
 from dolfinrod.continuum.working import working
 from dolfinrod.scene import Dynamic
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from dolfinrod.continuum.links import Links
     from dolfinrod.continuum.problem import Block, Problem
     from dolfinrod.continuum.readout import State
 
@@ -44,15 +43,17 @@ class Pairs:
         level: Where in a step forces act.
 
     Attributes:
-        links: Tangent at the last call of `blocks`.
+        inside: Blocks of single nodes at the last call of `blocks`, shape (n, d + n_q or d, d + n_q or d).
+        at: Dofs of this rank's own nodes that these are of, shape (n, d + n_q or d).
         everywhere: The nodes of all rods.
         met: Whether any rods pushed each other in the last answer.
         r: Centreline dofs of this rank's own nodes, shape (n, d).
         q: Their rotation dofs, shape (n, n_q).
     """
 
-    links: list[Links]
+    inside: Array
     _seen: Array | None = None
+    _links: Links | None = None
 
     def __init__(self, problem: Problem, level: float = 1.0) -> None:
         d, scene = problem.discretization, problem.scene
@@ -66,11 +67,13 @@ class Pairs:
         inert = isinstance(scene.motion, Dynamic)
         self._meetings = [Meeting(contact, lines, level, inert=inert, mine=mine) for contact in scene.meetings]
         self.turns = any(meeting.turns for meeting in self._meetings)
+        self.at = np.concatenate([self.r, self.q], axis=1) if self.turns else self.r
         self.place(0.0)
 
     def place(self, t: float) -> None:
         """The rods are where the state has them; nothing is remembered."""
         self.t, self._q_0 = t, self._problem.x[self.q]
+        self._acting = self._q_0
         x, self._seen = self._positions(), None
         for meeting in self._meetings:
             meeting.place(x, t)
@@ -103,7 +106,7 @@ class Pairs:
         moment = np.sum([one.moment for one in felt], axis=0)
         self._force, self.met = force[self.everywhere.own], bool(force.any())
         self._moment = (self.everywhere.summed(moment) if self.turns else moment)[self.everywhere.own]
-        self._seen = now
+        self._seen, self._links = now, None
 
     def add_residual(self, b: Array, q: Array) -> None:
         """Add what the rods do to each other to a residual.
@@ -113,6 +116,7 @@ class Pairs:
             q: Rotations of its own nodes in whose spins the moments do work, shape (n, n_q).
         """
         self._respond()
+        self._acting = q
         place, kin = self._problem.placement, self._problem.kinematics
         b[self.r] -= self._force @ place.axes / place.force
         if self.turns:
@@ -123,19 +127,20 @@ class Pairs:
         return working(q, self._q_0, self._problem.x[self.q], self._level)
 
     def blocks(self, q: Array) -> Sequence[Block]:
-        """Rows, columns and entries of single nodes in the tangent by the state after the step; q as above.
-
-        What links different nodes is left in `links`. All ranks call this together.
-        """
+        """Those of single nodes in the tangent by the state after the step; q as above, all ranks together."""
         self._respond()
-        frames = self._frames(q)
-        self.links = [linked(meeting.gradient(), frames) for meeting in self._meetings]
-        nodal = self.everywhere.summed(np.sum([links.nodal for links in self.links], axis=0))[self.everywhere.own]
-        at = self.r
-        if self.turns:
-            at = np.concatenate([self.r, self.q], axis=1)
-            nodal[:, self.r.shape[1] :, self.r.shape[1] :] -= self._turning(q)
-        return [(at, at, nodal)]
+        self._acting, self._links = q, None
+        self.inside = self.links().nodal
+        return [(self.at, self.at, self.inside)]
+
+    def links(self) -> Links:
+        """Tangent at the present state, with rotations as they were given last; all ranks call this together."""
+        self._respond()
+        if self._links is None:
+            frames, turning = self._frames(self._acting), self._turning(self._acting) if self.turns else None
+            gradients = [meeting.gradient() for meeting in self._meetings]
+            self._links = Links(gradients, frames, self.everywhere, turning)
+        return self._links
 
     def _turning(self, q: Array) -> Array:
         """What moments that stay put add to the tangent by rotations, shape (n, n_q, n_q)."""
@@ -148,22 +153,17 @@ class Pairs:
         return np.einsum("knij,ni->njk", spins, moment) @ self._working(q)[1]
 
     def _frames(self, q: Array) -> Frames:
-        """Of all nodes, on every rank."""
+        """Of this rank's own nodes."""
         problem, place = self._problem, self._problem.placement
-        at = np.concatenate([self.r, self.q], axis=1) if self.turns else self.r
-        free = self.everywhere.gathered(1.0 - problem.excluded[at]) > 0.0
+        free = 1.0 - problem.excluded[self.at]
         moves, feels = place.length * place.axes, place.axes.T / place.force
         if not self.turns:
             return Frames(moves[None], feels[None], free)
-        kin, (d, n_q, n) = problem.kinematics, (self.r.shape[1], self.q.shape[1], at.shape[1])
-        turned = place.spin_axes @ kin.rotation_vector_gradient(self._q_0, problem.x[self.q])
-        spun = np.swapaxes(kin.spin(self._working(q)[0]), 1, 2) @ place.spin_axes.T / place.moment
-        both = np.concatenate([turned.reshape(len(q), -1), spun.reshape(len(q), -1)], axis=1)
-        both = self.everywhere.gathered(both)
-        all_moves, all_feels = np.zeros((len(both), 6, n)), np.zeros((len(both), n, 6))
+        kin, (d, n) = problem.kinematics, (self.r.shape[1], self.at.shape[1])
+        all_moves, all_feels = np.zeros((len(q), 6, n)), np.zeros((len(q), n, 6))
         all_moves[:, :3, :d], all_feels[:, :d, :3] = moves, feels
-        all_moves[:, 3:, d:] = both[:, : 3 * n_q].reshape(-1, 3, n_q)
-        all_feels[:, d:, 3:] = both[:, 3 * n_q :].reshape(-1, n_q, 3)
+        all_moves[:, 3:, d:] = place.spin_axes @ kin.rotation_vector_gradient(self._q_0, problem.x[self.q])
+        all_feels[:, d:, 3:] = np.swapaxes(kin.spin(self._working(q)[0]), 1, 2) @ place.spin_axes.T / place.moment
         return Frames(all_moves, all_feels, free)
 
     @property

@@ -167,6 +167,30 @@ def test_the_tangent_is_the_derivative_of_the_residual(rods, friction, seed):
     assert off <= 1e-5 * max(1.0, largest(slope))
 
 
+@pytest.mark.parametrize("friction", [None, dr.Coulomb(0.4)], ids=["smooth", "rough"])
+def test_products_are_those_of_the_blocks(friction):
+    """C u by what points of contact answer, on any number of ranks, is C u by its entries less what is in P."""
+    rng, scene = np.random.default_rng(0), stacked(FLAT)
+    scene = replace(scene, contacts=[replace(scene.contacts[1], friction=friction)])
+    d = Discretization(MPI.COMM_WORLD, SpatialRods(), 3, (2, 2), rubbed=friction is not None)
+    problem = Problem(scene, d, Placement.of(scene, dr.Spatial()))
+    pairs, r = problem.pairs, d.dofs["r"].reshape(-1, 3)
+    problem.x[r[problem.x[r][:, 1] > 2 * RADIUS]] -= 0.3 * RADIUS * np.eye(3)[1]
+    pairs.begin(1.0)
+    problem.assemble_tangent(d.matrix)
+    with coupled(d.matrix, problem) as whole:
+        u, product, alone = d.matrix.createVecRight(), d.matrix.createVecLeft(), d.matrix.createVecLeft()
+        u.array[pairs.at] = rng.standard_normal(pairs.at.shape)
+        whole.mult(u, product)
+        d.matrix.mult(u, alone)
+        product.axpy(-1.0, alone)
+        mine = u.array[pairs.at]
+        by_points = pairs.links().times(mine) - np.einsum("nij,nj->ni", pairs.inside, mine)
+        size = d.comm.allreduce(largest(product.array), op=MPI.MAX)
+        assert size > 1.0
+        np.testing.assert_allclose(by_points, product.array[pairs.at], rtol=0, atol=1e-11 * size)
+
+
 @pytest.mark.serial
 def test_newton_is_quadratic_where_rods_touch(monkeypatch):
     """Increments below 0.1 and above round-off: each is at most some squares of the one before."""

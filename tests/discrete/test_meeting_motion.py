@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 
 import discrete
+from discrete.coupled import joined
 from dolfinrod.result import NotConverged, Result
 from dolfinrod.scene import (
     Clamp,
@@ -141,6 +144,17 @@ def test_fibres_on_fibres_on_a_plane():
     assert result.contacts[0].force[-1] == pytest.approx([0.0, 0.0, weight], abs=1e-2 * weight)
     assert result.meetings[0].force(-1, 1, 0) == pytest.approx([0.0, 0.0, weight], abs=1e-2 * weight)
     assert result.formulation.terms == ("Elasticity", "Inertia", "LineForce", "Contact", "RodContact")
+
+
+@given(seed=st.integers(0, 2**32 - 1), n=st.integers(1, 12), coupling=st.sampled_from([0.0, 1e-6, 0.3, 3.0]))
+def test_what_is_found_by_iteration_is_the_solution(seed, n, coupling):
+    """d = d₀ + A⁻¹ C d of any C: that of (A − C) d = A d₀."""
+    random = np.random.default_rng(seed)
+    A, C = np.eye(n) + 0.1 * random.standard_normal((n, n)) / n, coupling * random.standard_normal((n, n))
+    start = random.standard_normal((n, 1))
+    assume(np.linalg.cond(A - C) < 1e4)
+    found = joined(start, lambda f: np.linalg.solve(A, f), lambda d: C @ d, 1e-10)
+    np.testing.assert_allclose(found, np.linalg.solve(A - C, A @ start), rtol=0, atol=1e-5 * largest(found))
 
 
 @pytest.mark.parametrize("most", [2, 60], ids=["together", "iterated"])
