@@ -12,12 +12,14 @@ assumed value, marked [I] where it is described.
 
 from dolfinrod.groove.air import LineSink
 from dolfinrod.groove.bundle import Bundle
-from dolfinrod.groove.comparison import Comparison, Measured, Verdict, compare, measured, verdict
+from dolfinrod.groove.comparison import Comparison, Measured, Verdict, compare, difference, measured, verdict
 from dolfinrod.groove.core import FixedCore, RollingCore
 from dolfinrod.groove.course import Course, course
 from dolfinrod.groove.ends import Ends
 from dolfinrod.groove.ensemble import Ensemble, Progress, ensemble
+from dolfinrod.groove.film import Film, filmed
 from dolfinrod.groove.measures import Along, Measures, measure
+from dolfinrod.groove.page import report
 from dolfinrod.groove.runs import Folder, Run
 from dolfinrod.groove.scenario import Scenario
 from dolfinrod.groove.sections import CrossSection
@@ -36,6 +38,7 @@ __all__ = [
     "CrossSection",
     "Ends",
     "Ensemble",
+    "Film",
     "FixedCore",
     "Folder",
     "Interval",
@@ -51,9 +54,12 @@ __all__ = [
     "Yarn",
     "compare",
     "course",
+    "difference",
     "ensemble",
+    "filmed",
     "measure",
     "measured",
+    "report",
     "varied",
     "variant",
     "verdict",

@@ -11,8 +11,8 @@ from uuid import uuid4
 
 import numpy as np
 
-from dolfinrod.groove.course import course
 from dolfinrod.groove.described import described, key
+from dolfinrod.groove.film import filmed
 from dolfinrod.groove.limits import known
 from dolfinrod.groove.measures import Measures, measure
 from dolfinrod.groove.runs import Folder, Run
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
 
     from numpy.typing import NDArray
-
-    from dolfinrod.result import Result
 
 __all__ = ["Ensemble", "Progress", "ensemble"]
 
@@ -183,7 +181,7 @@ def _solved(
     blank = Run(name, scenario.kind, scenario.seed, model, described(scenario), 0.0, None, 0.0)
     try:
         result = scenario.run(model, elements=elements)
-        arrays, measures = _arrays(result, scenario), measure(result, scenario)
+        arrays, measures = filmed(result, scenario), measure(result, scenario)
     except FAILURES as error:
         reached = error.t if isinstance(error, NotConverged) else 0.0
         told = f"{type(error).__name__}: {error}"
@@ -205,10 +203,3 @@ def _told(blank: Run, scenario: Scenario, measures: Measures, seconds: float) ->
         crossings=len(measures.crossings),
         width=0.0 if measures.along is None else float(measures.along.width.mean()),
     )
-
-
-def _arrays(result: Result, scenario: Scenario) -> dict[str, NDArray[np.float64]]:
-    """Paths of the rods over the stored times, and the course of the bundle."""
-    paths = {f"rod_{k}": rod.r for k, rod in enumerate(result.rods)}
-    over = course(result, scenario)
-    return paths | {name: getattr(over, name) for name in over.__dataclass_fields__}
