@@ -8,15 +8,13 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from dolfinrod.cli.listing import listing
 from dolfinrod.cli.speech import complain, is_first_rank, ranks, readable
 from dolfinrod.cli.watch import Watch
-from dolfinrod.groove import VARIANTS, Ensemble, Scenario, ensemble, toml, variant
+from dolfinrod.groove import VARIANTS, Ensemble, Scenario, ensemble, report, toml, variant
 from dolfinrod.groove.closing import closing
 from dolfinrod.groove.rows import write_rows
 from dolfinrod.groove.scenario import MODELS
@@ -33,7 +31,6 @@ DESCRIPTION = (
     "Every finished run is kept in DIR, and the same command goes on where it was stopped. Started by "
     "`mpirun -n N dolfinrod groove ...`, N ranks share the runs."
 )
-PAGE = "dolfinrod.groove.page"
 
 
 def add_options(parser: ArgumentParser) -> None:
@@ -102,8 +99,8 @@ def _tell(found: Ensemble, folder: Path) -> None:
     print("\n".join(closing(found)))
     table, _ = write_rows(found.runs, folder)
     print(f"one row a run: {table}", flush=True)
-    if found.finished and (page := _page(folder)) is not None:
-        print(page.resolve())
+    if found.finished:
+        print(report(folder).resolve())
 
 
 def _show(options: Namespace) -> None:
@@ -159,14 +156,6 @@ def _all_or_none() -> Iterator[None]:
             from mpi4py.run import set_abort_status
 
             set_abort_status(INTERRUPTED)
-
-
-def _page(folder: Path) -> Path | None:
-    """The page on what the folder holds, where this installation draws one."""
-    if find_spec(PAGE) is None:
-        return None
-    page: Path = import_module(PAGE).report(folder)
-    return page
 
 
 def _number(text: str) -> int:

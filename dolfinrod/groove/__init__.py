@@ -14,13 +14,15 @@ from dolfinrod.groove import toml
 from dolfinrod.groove.air import LineSink
 from dolfinrod.groove.bundle import Bundle
 from dolfinrod.groove.clock import Progress
-from dolfinrod.groove.comparison import Comparison, Measured, Verdict, compare, measured, verdict
+from dolfinrod.groove.comparison import Comparison, Measured, Verdict, compare, difference, measured, verdict
 from dolfinrod.groove.core import FixedCore, RollingCore
 from dolfinrod.groove.course import Course, course
 from dolfinrod.groove.delivery import delivery
 from dolfinrod.groove.ends import Ends
 from dolfinrod.groove.ensemble import Ensemble, ensemble
+from dolfinrod.groove.film import Film, filmed
 from dolfinrod.groove.measures import Along, Measures, measure
+from dolfinrod.groove.page import report
 from dolfinrod.groove.parameters import Parameter, parameters
 from dolfinrod.groove.pressing import Pressing
 from dolfinrod.groove.rows import rows, write_rows
@@ -43,6 +45,7 @@ __all__ = [
     "CrossSection",
     "Ends",
     "Ensemble",
+    "Film",
     "FixedCore",
     "Folder",
     "Interval",
@@ -61,11 +64,14 @@ __all__ = [
     "compare",
     "course",
     "delivery",
+    "difference",
     "ensemble",
+    "filmed",
     "grid",
     "measure",
     "measured",
     "parameters",
+    "report",
     "rows",
     "sweep",
     "toml",

@@ -10,7 +10,7 @@ from math import comb
 
 import numpy as np
 
-from dolfinrod.groove.comparison import measured
+from dolfinrod.groove.comparison import difference, measured
 from dolfinrod.groove.ensemble import Ensemble
 from dolfinrod.groove.measures import CROSSED
 from dolfinrod.groove.rows import flat, units
@@ -120,15 +120,15 @@ def _verdict(lateral: Group, intermediate: Group) -> list[str]:
     a, b = lateral.values("T_crossed"), intermediate.values("T_crossed")
     if min(len(a), len(b)) < 2:
         return [f"{name}: too few runs for a verdict, at least two of each are needed."]
-    difference, p = _difference(a, b)
-    by = "have more twist" if difference.low > 0.0 else "have less twist" if difference.high < 0.0 else ""
+    apart, p = _difference(a, b)
+    by = "have more twist" if apart.low > 0.0 else "have less twist" if apart.high < 0.0 else ""
     found = f"lateral bundles {by}" if by else "the simulated bundles show no difference in twist beyond chance"
-    agrees = "meets" if difference.meets(yarns) else "does not meet"
+    agrees = "meets" if apart.meets(yarns) else "does not meet"
     wound = [group.values("wound") for group in (lateral, intermediate)]
     more, p_wound = _difference(*wound)
     surely = "more" if more.low > 0.0 else "fewer" if more.high < 0.0 else "neither surely more nor fewer"
     return [
-        f"{name}: {found}: {_interval(difference)} turns/m, {p}; the yarns of Table 1 differ by {_interval(yarns)}, "
+        f"{name}: {found}: {_interval(apart)} turns/m, {p}; the yarns of Table 1 differ by {_interval(yarns)}, "
         f"an interval which this one {agrees}.",
         f"{name}: {surely} pairs wind in the lateral groove: {np.mean(wound[0]):.1f} against {np.mean(wound[1]):.1f}, "
         f"{p_wound}.",
@@ -139,11 +139,8 @@ def _verdict(lateral: Group, intermediate: Group) -> list[str]:
 def _difference(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, str]:
     """Of the means, by Welch's test, which needs some scatter."""
     if np.ptp(a) == np.ptp(b) == 0.0:
-        between = a[0] - b[0]
-        return Interval(between, between, between), "no run differs from another of its groove"
-    test = welch(a, b)
-    assert test.difference is not None
-    return test.difference, f"{test.printed_p} (Welch)"
+        return difference(a, b), "no run differs from another of its groove"
+    return difference(a, b), f"{welch(a, b).printed_p} (Welch)"
 
 
 def _mean(values: Sequence[float]) -> str:

@@ -21,7 +21,7 @@ from dolfinrod.groove.statistics import (
 )
 from dolfinrod.groove.table1 import INTERMEDIATE, LATERAL, NOMINAL
 
-__all__ = ["Comparison", "Measured", "Verdict", "compare", "measured", "verdict"]
+__all__ = ["Comparison", "Measured", "Verdict", "compare", "difference", "measured", "verdict"]
 
 
 @dataclass(frozen=True)
@@ -128,6 +128,27 @@ def compare(first: Sequence[float], second: Sequence[float]) -> Comparison:
         # Hedges & Olkin, Statistical Methods for Meta-Analysis, 1985.
         hedges=d * (1.0 - 3.0 / (4.0 * (n + m) - 9.0)),
     )
+
+
+def difference(first: Sequence[float], second: Sequence[float]) -> Interval:
+    """Difference of means by Welch's test, also of samples without any scatter, whose interval has no width.
+
+    Args:
+        first: At least two values.
+        second: Likewise.
+
+    Returns:
+        First minus second.
+
+    Raises:
+        SceneError: Fewer values, or one that is not finite.
+    """
+    if np.ptp(first) == 0.0 == np.ptp(second):
+        apart = of_mean(first).value - of_mean(second).value
+        return Interval(apart, apart, apart)
+    found = welch(first, second).difference
+    assert found is not None
+    return found
 
 
 def measured() -> Measured:

@@ -13,8 +13,8 @@ from uuid import uuid4
 import numpy as np
 
 from dolfinrod.groove.clock import Clock, Job, Progress
-from dolfinrod.groove.course import course
 from dolfinrod.groove.described import described, key
+from dolfinrod.groove.film import filmed
 from dolfinrod.groove.limits import known
 from dolfinrod.groove.measures import Measures, measure
 from dolfinrod.groove.runs import Folder, Run
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from dolfinrod.result import Result, StepLog
+    from dolfinrod.result import StepLog
 
 __all__ = ["Ensemble", "ensemble", "world"]
 
@@ -176,7 +176,7 @@ def _solved(
     blank = Run(name, scenario.kind, scenario.seed, job.model, described(scenario), 0.0, None, 0.0)
     try:
         result = scenario.run(job.model, elements=elements, progress=step)
-        arrays, measures = _arrays(result, scenario), measure(result, scenario)
+        arrays, measures = filmed(result, scenario), measure(result, scenario)
     except FAILURES as error:
         reached = error.t if isinstance(error, NotConverged) else 0.0
         told = f"{type(error).__name__}: {error}"
@@ -198,10 +198,3 @@ def _told(blank: Run, scenario: Scenario, measures: Measures, seconds: float) ->
         crossings=len(measures.crossings),
         width=0.0 if measures.along is None else float(measures.along.width.mean()),
     )
-
-
-def _arrays(result: Result, scenario: Scenario) -> dict[str, NDArray[np.float64]]:
-    """Paths of the rods over the stored times, and the course of the bundle."""
-    paths = {f"rod_{k}": rod.r for k, rod in enumerate(result.rods)}
-    over = course(result, scenario)
-    return paths | {name: getattr(over, name) for name in over.__dataclass_fields__}

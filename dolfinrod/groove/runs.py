@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.groove.film import Film
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
 __all__ = ["Folder", "Run"]
 
 CLAIMS = ".claims-"
+# Records of another format are of no use to who reads these: their runs are done again.
+FORMAT = "dolfinrod groove run 2"
 
 
 @dataclass(frozen=True)
@@ -78,22 +82,33 @@ class Folder:
         try:
             table = json.loads((self.path / f"{key}.json").read_text(encoding="utf-8"))
             table["winding"] = tuple(tuple(row) for row in table["winding"])
-            return Run(**{field.name: table[field.name] for field in fields(Run)})
+            run = Run(**{field.name: table[field.name] for field in fields(Run)})
         except (FileNotFoundError, KeyError, TypeError, ValueError):
             return None
+        whole = run.failed is not None or (self.path / f"{key}.npz").is_file()
+        return run if whole and table.get("format") == FORMAT else None
+
+    def runs(self) -> tuple[Run, ...]:
+        """All finished runs, by kind and seed."""
+        found = [run for path in sorted(self.path.glob("*.json")) if (run := self.read(path.stem)) is not None]
+        return tuple(sorted(found, key=lambda run: (run.kind, run.seed, run.key)))
+
+    def film(self, key: str) -> Film:
+        """What a finished run keeps of its result."""
+        return Film.of(self.arrays(key))
 
     def arrays(self, key: str) -> dict[str, Array]:
-        """Arrays of a finished run by name: paths of the fibres, and its course in time."""
+        """Arrays of a finished run by name, as `filmed` gives them; a failed run has none."""
         with np.load(self.path / f"{key}.npz", allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
 
     def write(self, run: Run, arrays: Mapping[str, Array]) -> None:
-        """Keep a run: its arrays, and then the record that says it is finished."""
+        """Keep a run: its arrays, such as `filmed`, and then the record that says it is finished."""
         part = self.path / f"{run.key}.{os.getpid()}.part"
         with part.open("wb") as file:
             np.savez_compressed(file, **arrays)
         part.replace(self.path / f"{run.key}.npz")
-        part.write_text(json.dumps(asdict(run), indent=1), encoding="utf-8")
+        part.write_text(json.dumps({"format": FORMAT, **asdict(run)}, indent=1), encoding="utf-8")
         part.replace(self.path / f"{run.key}.json")
 
     def claim(self, session: str, key: str) -> bool:

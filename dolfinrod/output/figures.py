@@ -66,7 +66,7 @@ def plot(result: Result, path: str | Path | None = None) -> Figure:
     _draw_resultants(along, result)
     _draw_tips(figure.add_subplot(grid[2, 1]), result)
     if panels == 4:
-        draw_ledger(figure.add_subplot(grid[3, 1]), result)
+        draw_ledger(figure.add_subplot(grid[3, 1]), result.t, result.energy)
     if result.contacts:
         draw_contacts(figure, grid, result, panels)
     if result.meetings:

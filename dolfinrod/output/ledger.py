@@ -9,9 +9,12 @@ import numpy as np
 from dolfinrod.output.scale import scale
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from collections.abc import Mapping
 
-    from dolfinrod.result import Result
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 __all__ = ["draw_ledger"]
 
@@ -35,22 +38,23 @@ OTHER = ("0.45", ":")
 ROUND_OFF = 1e-9
 
 
-def draw_ledger(axes: Axes, result: Result) -> None:
+def draw_ledger(axes: Axes, t: Array, energy: Mapping[str, Array]) -> None:
     """Change of each energy since the start, and the works; their sums are equal at every time.
 
     Args:
         axes: Where to draw.
-        result: With a ledger.
+        t: Stored times, shape (n_t,) [s].
+        energy: Ledger at these times, by name, shapes (n_t,) [J].
     """
-    changes = {name: values - values[0] for name, values in result.energy.items()}
+    changes = {name: values - values[0] for name, values in energy.items()}
     most = max(float(np.abs(values).max()) for values in changes.values())
     unit = scale(most, "J")
     for name, values in changes.items():
         if np.abs(values).max() > ROUND_OFF * most:
             color, style = LINES.get(name, OTHER)
-            axes.plot(result.t, unit.factor * values, color=color, linestyle=style, label=name)
+            axes.plot(t, unit.factor * values, color=color, linestyle=style, label=name)
     if not most:
-        axes.plot(result.t, np.zeros_like(result.t), color="0.75", label="nothing")
+        axes.plot(t, np.zeros_like(t), color="0.75", label="nothing")
         axes.set_ylim(-1.0, 1.0)
     axes.axhline(0.0, color="0.75", linewidth=0.8, zorder=0)
     axes.grid(alpha=0.25)

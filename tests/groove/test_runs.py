@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from dolfinrod.groove import Bundle, LineSink, Scenario, course, ensemble, measure, variant
+from dolfinrod.groove import Bundle, Film, LineSink, Scenario, course, ensemble, filmed, measure, variant
 from dolfinrod.groove.runs import Folder
 from dolfinrod.result import NotConverged
-from dolfinrod.scene import SceneError
+from dolfinrod.scene import Groove, SceneError
 
 # Strong air from the start, and few elements: much happens in few steps.
 GUST = LineSink(speed=40.0, ramp=0.0)
@@ -81,8 +82,8 @@ def test_a_second_call_repeats_no_finished_run(shared_path, monkeypatch):
     assert (told[0].done, told[0].total, told[0].left) == (0, 3, None)
     assert sorted(path.suffix for path in shared_path.iterdir()) == [".json"] * 4 + [".npz"] * 4
     arrays = Folder(shared_path).arrays(found.runs[0].key)
-    assert arrays["rod_0"].shape == (6, 9, 3)
-    assert arrays["width"].shape == arrays["t"].shape == (6,)
+    assert arrays["paths"].shape == (6, 2, 9, 3)
+    assert arrays["course width"].shape == arrays["course t"].shape == (6,)
 
 
 def test_a_run_that_fails_is_recorded_and_the_others_go_on(shared_path, monkeypatch):
@@ -115,6 +116,50 @@ def test_what_an_end_by_force_leaves_is_swept_and_half_a_record_is_none(tmp_path
     again = ensemble(brief(), folder=tmp_path, seeds=[0])
     assert again.runs[0].T_pair == run.T_pair
     assert len(list(tmp_path.iterdir())) == 2
+
+
+@pytest.mark.serial
+def test_a_run_is_finished_when_all_of_it_is_there(tmp_path):
+    (run,) = ensemble(brief(), folder=tmp_path, seeds=[0]).runs
+    kept, record = Folder(tmp_path), tmp_path / f"{run.key}.json"
+    assert kept.runs() == (run,)
+    table = json.loads(record.read_text())
+    record.write_text(json.dumps(table | {"format": "another"}))
+    assert kept.runs() == ()
+    record.write_text(json.dumps(table))
+    (tmp_path / "report.json").write_text("[1, 2]")
+    assert kept.runs() == (run,)
+    (tmp_path / f"{run.key}.npz").unlink()
+    assert kept.read(run.key) is None
+
+
+@pytest.mark.serial
+@pytest.mark.parametrize("name", ["mirrored", "L2"])
+def test_a_film_keeps_what_the_result_says(name):
+    scenario = replace(variant(brief(steps=4), name), bundle=Bundle(height=-2.5e-4, offset=None), fibres_touch=True)
+    result = scenario.run("discrete")
+    film = Film.of(filmed(result, scenario))
+    assert (film.times == result.t).all()
+    assert (film.paths[:, 1] == result.rods[1].r).all()
+    assert film.energy.keys() == result.energy.keys()
+    assert film.course["width"] == pytest.approx(course(result, scenario).width)
+    # Line load over the length is the force that the course tells.
+    share = np.gradient(film.s) * np.where((film.s == 0.0) | (film.s == film.s[-1]), 0.5, 1.0)
+    assert (film.pressed @ share).sum(axis=1) == pytest.approx(film.course["walls"], rel=1e-9, abs=1e-15)
+    # The core begins on the wall, or lies between the flanks.
+    y, z, radius = film.core[0]
+    wall = Groove(film.outline.tolist())
+    assert wall.closest(np.array([[0.0, y, z]])).distance[0] == pytest.approx(radius, abs=2e-6)
+
+
+@pytest.mark.serial
+def test_a_long_run_keeps_some_of_its_states_and_its_whole_course():
+    scenario = brief(steps=80, fibres=1, elements=2)
+    result = scenario.run("discrete")
+    film = Film.of(filmed(result, scenario))
+    assert len(film.times) <= 61
+    assert (film.times[0], film.times[-1]) == (result.t[0], result.t[-1])
+    assert len(film.course["t"]) == len(result.t) == 81
 
 
 def test_an_ensemble_has_runs(shared_path):
