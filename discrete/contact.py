@@ -78,11 +78,12 @@ class Contacts:
         Returns:
             Gap, pressure, normal, traction, slip so far and state of each, SI units, shape (n_points, 10).
         """
-        rows = []
-        for pair in self._pairs:
-            reply, slip = pair.reply, pair.touch.memory()["slip"]
-            rows.append(np.column_stack([reply.gap, reply.pressure, reply.normal, reply.traction, slip, reply.state]))
-        return np.concatenate(rows)
+        tables = [np.empty((len(pair.share), 10)) for pair in self._pairs]
+        for pair, rows in zip(self._pairs, tables, strict=True):
+            reply = pair.reply
+            rows[:, 0], rows[:, 1], rows[:, 8], rows[:, 9] = reply.gap, reply.pressure, pair.touch.slip, reply.state
+            rows[:, 2:5], rows[:, 5:8] = reply.normal, reply.traction
+        return np.concatenate(tables)
 
     def _answered(self, x: Array, R: Array) -> bool:
         """Whether `force` was asked for last there: an iteration that stays does not count as one that goes on."""
@@ -142,9 +143,11 @@ class Contacts:
         turns = log(R @ np.swapaxes(self._R_0, 1, 2)) if self._rubs else total[:, X]
         for pair in self._pairs:
             reply = pair.respond(place, turns)
-            total[pair.mine, X] += (pair.share / self._units.force)[:, None] * reply.force
+            on = np.flatnonzero(reply.state)
+            nodes, share = on + pair.mine.start, pair.share[on, None]
+            total[nodes, X] += share / self._units.force * reply.force[on]
             if pair.rubs:
-                total[pair.mine, SPIN] += (pair.share / self._units.moment)[:, None] * reply.moment
+                total[nodes, SPIN] += share / self._units.moment * reply.moment[on]
         self._seen, self._force = (x, R), total
         return total.copy()
 

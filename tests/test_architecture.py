@@ -50,7 +50,7 @@ def relative(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
-@pytest.mark.parametrize("heavy", ["dolfinx", "petsc4py", "mpi4py", "pint", "matplotlib"])
+@pytest.mark.parametrize("heavy", ["dolfinx", "petsc4py", "mpi4py", "numba", "pint", "matplotlib"])
 def test_importing_both_models_loads_no_solver(heavy):
     modules = loaded_after("import dolfinrod, discrete, sys; print(*sys.modules)")
     assert {"dolfinrod", "discrete"} <= modules

@@ -85,14 +85,12 @@ class Contacts:
 
     def _respond(self) -> None:
         """See to it that the answers are those to the present state."""
-        state = self._problem.x
+        state, place, kin = self._problem.x, self._problem.placement, self._problem.kinematics
         now = np.concatenate([state[self.r].ravel(), state[self.q].ravel()])
         if self._seen is not None and np.array_equal(self._seen, now):
             return
-        place, kin = self._problem.placement, self._problem.kinematics
-        x = place.to_space(state[self.r])
-        turned = kin.rotation_vector(self._q_0, state[self.q]) if self._rubs else np.zeros((len(x), kin.n_spin))
-        turn = turned @ place.spin_axes.T
+        turned = kin.rotation_vector(self._q_0, state[self.q]) if self._rubs else np.zeros((len(self.q), kin.n_spin))
+        x, turn = place.to_space(state[self.r]), turned @ place.spin_axes.T
         for side in self._sides:
             side.reply = side.touch.respond(x[side.nodes], turn[side.nodes])
         self._seen = now
@@ -107,8 +105,9 @@ class Contacts:
         self._respond()
         place, kin = self._problem.placement, self._problem.kinematics
         for side in self._sides:
-            reply, nodes = side.reply, side.nodes
-            on = np.flatnonzero(reply.state)
+            reply, nodes, on = side.reply, side.nodes, np.flatnonzero(side.reply.state)
+            if not len(on):
+                continue
             b[self.r[nodes[on]]] -= side.share[on] * (reply.force[on] @ place.axes) / place.force
             if side.touch.turns:
                 moment = side.share[on] * (reply.moment[on] @ place.spin_axes) / place.moment

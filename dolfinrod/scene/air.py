@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.drag import resistances
+from dolfinrod.scene.drag import linearized, resisting
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import VectorLike, assign, positive, vector
 
@@ -77,9 +77,7 @@ class Air:
         Returns:
             Shape (n, 3) [N/m].
         """
-        v_n, v_t, speed = _split(v, tangent)
-        k_n, k_t, *_ = self.viscosity * resistances(self._reynolds(diameter) * speed)
-        return k_n[:, None] * v_n + k_t[:, None] * v_t
+        return np.asarray(resisting(*self._passing(v, tangent, diameter)))
 
     def drag_gradient(self, v: Array, tangent: Array, diameter: Array) -> Array:
         """∂f/∂v at fixed tangent, shape (n, 3, 3) [N s/m²]; arguments as `drag`."""
@@ -94,24 +92,10 @@ class Air:
         Returns:
             f, shape (n, 3) [N/m]; ∂f/∂v, shape (n, 3, 3) [N s/m²]; ∂f/∂t, shape (n, 3, 3) [N/m].
         """
-        v_n, v_t, speed = _split(v, tangent)
-        per_speed = self._reynolds(diameter)
-        k_n, k_t, slope_n, slope_t = (self.viscosity * resistances(per_speed * speed))[:, :, None]
-        direction = per_speed[:, None] * (v_n / np.maximum(speed, np.finfo(float).tiny)[:, None])
-        change = (slope_n * v_n + slope_t * v_t)[:, :, None] * direction[:, None, :]
-        along, one = np.einsum("ni,ni->n", v, tangent)[:, None, None], np.eye(3)
-        k_n, gap = k_n[:, :, None], (k_t - k_n)[:, :, None]
-        by_v = k_n * one + gap * tangent[:, :, None] * tangent[:, None, :] + change
-        by_t = gap * (tangent[:, :, None] * v[:, None, :] + along * one) - along * change
-        return k_n[:, :, 0] * v_n + k_t * v_t, by_v, by_t
+        f, by_v, by_t = linearized(*self._passing(v, tangent, diameter))
+        return f, by_v, by_t
 
-    def _reynolds(self, diameter: Array) -> Array:
-        """w per speed across, d/ν, shape (n,) [s/m]."""
-        return diameter * (self.density / self.viscosity)
-
-
-def _split(v: Array, tangent: Array) -> tuple[Array, Array, Array]:
-    """v_n, v_t and |v_n|."""
-    v_t = np.einsum("ni,ni->n", v, tangent)[:, None] * tangent
-    v_n = v - v_t
-    return v_n, v_t, np.sqrt(np.einsum("ni,ni->n", v_n, v_n))
+    def _passing(self, v: Array, tangent: Array, diameter: Array) -> tuple[Array, Array, Array, float]:
+        """What the drag depends on: velocity, tangent, Reynolds number per speed across, d/ν [s/m], and viscosity."""
+        per_speed = diameter * (self.density / self.viscosity)
+        return np.ascontiguousarray(v), np.ascontiguousarray(tangent), per_speed, self.viscosity

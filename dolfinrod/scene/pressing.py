@@ -17,16 +17,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.pushing import GRAZING, followed, touching
+
 if TYPE_CHECKING:
     from dolfinrod.scene.pressure import NormalLaw
 
-__all__ = ["GRAZING", "Pressing"]
+__all__ = ["Pressing"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# Distance from touching, in radii, that is round-off.
-GRAZING = 1e-9
 # A renewal of multipliers that leaves more than this of the penetration is followed by a firmer law, and how firm.
 SLOW, FIRMER, FIRMEST = 0.25, 10.0, 1e6
 
@@ -58,7 +58,7 @@ class Pressing:
         return self._kept
 
     def _just_touch(self, gap: Array) -> Flags:
-        return np.abs(gap - self.law.g_0) <= GRAZING * self._radius
+        return np.asarray(np.abs(gap - self.law.g_0) <= GRAZING * self._radius)
 
     def soften(self, by: float) -> None:
         """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
@@ -78,25 +78,19 @@ class Pressing:
         Returns:
             p, dp/dg, which points are pressed, and the pressure under which normals turn, each of shape (n,).
         """
-        p, slope = self.law.pressure(gap, λ)
-        expected, pressed = p, p > 0.0
+        p, slope = self.law.drawn(gap, λ)
         if self._foreseen is not None:
             (pressed, expected), self._foreseen = self._foreseen, None
         elif self._led is None:
-            pressed = pressed | self._kept
+            pressed, expected = (p > 0.0) | self._kept, np.maximum(p, 0.0)
         else:
-            was, X_0, p_0, p_X = self._led
-            hoped = p_0 + np.einsum("ni,ni->n", p_X, X - X_0)
-            pressed = np.where(was, (hoped > 0.0) | torn, pressed)
-            expected = np.where(was, np.maximum(hoped, 0.0), 0.0)
-        drawn, stiff = self.law.drawn(gap, λ)
-        p, slope = np.where(pressed, drawn, 0.0), np.where(pressed, stiff, 0.0)
+            pressed, expected = followed(p, torn, X, *self._led)
         return (*self._grazing(p, slope, pressed, gap), expected)
 
     def _grazing(self, p: Array, slope: Array, pressed: Flags, gap: Array) -> tuple[Array, Array, Flags]:
         """What just touches is about to be pressed: without its stiffness a rod that lies on a wall would be free."""
-        grazes = ~pressed & self._just_touch(gap)
-        return p, np.where(grazes, -self.law.eps_N, slope), pressed | grazes
+        p, slope, touch = touching(p, slope, pressed, gap, self.law.g_0, self.law.eps_N, self._radius)
+        return p, slope, touch
 
     def mean(self, start: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:
         """The same of mean pressures over steps from gaps `start` on, which are taken as they are."""

@@ -37,7 +37,7 @@ class NormalLaw(Protocol):
         ...
 
     def drawn(self, g: Array, λ: Array) -> tuple[Array, Array]:
-        """The same for points that an iteration keeps pressed though they have left the wall: p may be below zero."""
+        """The same for points that an iteration keeps pressed though they have left the wall: there p is below zero."""
         ...
 
     def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
@@ -90,7 +90,7 @@ class Penalty:
 
     def drawn(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`."""
-        return self.eps_N * (self.g_0 - g), np.full_like(g, -self.eps_N)
+        return self.eps_N * (self.g_0 - g), np.full(g.shape, -self.eps_N)
 
     def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`."""
@@ -206,7 +206,7 @@ class AugmentedLagrangian:
 
     def drawn(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`."""
-        return λ - self.eps_N * g, np.full_like(g, -self.eps_N)
+        return λ - self.eps_N * g, np.full(g.shape, -self.eps_N)
 
     def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
         """The pressure at h: multipliers hold at the end of a step."""

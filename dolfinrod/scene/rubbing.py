@@ -10,13 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Pressed", "Rubbing", "Step", "cross", "far_off", "rubbed", "skew", "slip_gradients", "traction_gradient"]
+from dolfinrod.scene.sliding import mapped, slip_slopes, traction_slopes
+
+__all__ = ["Pressed", "Rubbing", "Step", "cross", "rubbed", "skew", "slip_gradients", "traction_gradient"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-
-# Of a traction, against its limit.
-ROUND_OFF = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,12 +93,6 @@ class Step:
     rubbing: Rubbing | None
 
 
-def far_off(v: Array, n: Array) -> tuple[Array, Array]:
-    """The part of displacements v across normals n, and its length, shapes (n, 3) and (n,)."""
-    u = v - np.einsum("ni,ni->n", v, n)[:, None] * n
-    return u, np.sqrt(np.einsum("ni,ni->n", u, u))
-
-
 def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: Flags, glides: Flags, slid: Array) -> Rubbing:
     """Return mapping: the anchors follow where they would pull harder than μ p.
 
@@ -119,13 +112,7 @@ def rubbed(pressed: Pressed, v: Array, μ: float, ε_T: float, clings: Flags, gl
     Returns:
         Tractions and where the anchors are.
     """
-    (u, far), reach = far_off(v, pressed.n), μ * pressed.p / ε_T
-    slides = (far > np.maximum(reach, 0.0)) & ~clings & (np.einsum("ni,ni->n", u, slid) >= 0.0)
-    slides |= glides & (far > 0.0)
-    forced = bool(np.where(slides, far < reach * (1.0 - ROUND_OFF), far > reach * (1.0 + ROUND_OFF)).any())
-    held = np.where(slides, reach / np.where(slides, far, 1.0), 1.0)
-    anchored = held[:, None] * u
-    return Rubbing(-ε_T * anchored, anchored, np.where(slides & (pressed.p > 0.0), far - reach, 0.0), u, slides, forced)
+    return Rubbing(*mapped(pressed.p, pressed.n, v, μ, ε_T, clings, glides, slid))
 
 
 def traction_gradient(pressed: Pressed, rubbing: Rubbing, u_q: Array, μ: float, ε_T: float) -> Array:
@@ -141,13 +128,7 @@ def traction_gradient(pressed: Pressed, rubbing: Rubbing, u_q: Array, μ: float,
     Returns:
         The derivative.
     """
-    far = np.sqrt(np.einsum("ni,ni->n", rubbing.u, rubbing.u))
-    slides = rubbing.slides
-    e = rubbing.u / np.where(far > 0.0, far, 1.0)[:, None]
-    shrunk = np.where(slides, μ * pressed.p / (ε_T * np.where(slides, far, 1.0)), 1.0)[:, None, None]
-    along = np.where(slides, 1.0, 0.0)[:, None, None] * e[:, :, None] * np.einsum("ni,nij->nj", e, u_q)[:, None, :]
-    follows = np.where(slides, μ, 0.0)[:, None, None] * e[:, :, None] * pressed.p_X[:, None, :]
-    return -ε_T * shrunk * (u_q - along) - follows
+    return np.asarray(traction_slopes(pressed.p, pressed.p_X, rubbing.u, rubbing.slides, u_q, μ, ε_T))
 
 
 def slip_gradients(step: Step, start: Array, g_0: float) -> tuple[Array, Array]:
@@ -163,18 +144,10 @@ def slip_gradients(step: Step, start: Array, g_0: float) -> tuple[Array, Array]:
     Returns:
         ∂u/∂X and ∂u/∂Ψ, shapes (m, 3, 3).
     """
-    pressed, gap = step.pressed, step.gap[step.on]
-    n, n_X, share = pressed.n, pressed.n_X, step.share[:, None, None]
-    P = np.eye(3) - n[:, :, None] * n[:, None, :]
-    partly = (step.share > 0.0) & (step.share < 1.0)
-    fading = np.where(partly, (start - g_0) / np.where(partly, start - gap, 1.0) ** 2, 0.0)
-    size = np.sqrt(np.einsum("ni,ni->n", pressed.p_X, pressed.p_X))
-    down = pressed.p_X / np.where(size > 0.0, size, 1.0)[:, None]
-    v_X = share * (np.eye(3) - pressed.radius[:, None, None] * (skew(step.turned[step.on]) @ n_X))
-    v_X += step.w[:, :, None] * (fading[:, None] * down)[:, None, :]
-    u_X = P @ v_X - np.einsum("ni,ni->n", n, step.v)[:, None, None] * n_X
-    u_X -= n[:, :, None] * np.einsum("nij,ni->nj", n_X, step.v)[:, None, :]
-    return u_X, share * pressed.radius[:, None, None] * (P @ skew(n))
+    p, on = step.pressed, step.on
+    along = (step.share, step.w, step.v, step.gap[on], start, g_0)
+    u_X, u_turn = slip_slopes(step.turned[on], p.n, p.n_X, p.radius, p.p_X, *along)
+    return u_X, u_turn
 
 
 def cross(a: Array, b: Array) -> Array:

@@ -12,12 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.books import rubbed_off, wall_work
 from dolfinrod.scene.creeping import against, creeping_gradient
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
+from dolfinrod.scene.outward import felt, into_space, onto_wall
 from dolfinrod.scene.piercing import pierces
-from dolfinrod.scene.pressing import GRAZING, Pressing
-from dolfinrod.scene.reply import OPEN, SLIDES, STICKS, Booked, Gradient, Reply
-from dolfinrod.scene.rubbing import Pressed, Step, cross, far_off, rubbed, skew, slip_gradients, traction_gradient
+from dolfinrod.scene.pressing import Pressing
+from dolfinrod.scene.pushing import GRAZING, gathered
+from dolfinrod.scene.reply import OPEN, SLIDES, Booked, Gradient, Reply
+from dolfinrod.scene.rubbing import Pressed, Step, rubbed, slip_gradients, traction_gradient
+from dolfinrod.scene.sliding import lever_slopes, passed, torn
 from dolfinrod.scene.surfaces import REST, Pose
 
 if TYPE_CHECKING:
@@ -28,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["Touch"]
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 
 class Touch:
@@ -43,6 +48,7 @@ class Touch:
     def __init__(self, contact: Contact, radius: Array, t_end: float, level: float = 1.0) -> None:
         self.contact, self._radius, self._t_end, self._level = contact, radius, t_end, level
         self._friction, self._pressing = contact.friction, Pressing(contact.law, radius)
+        self._none, self._all = np.zeros(len(radius), dtype=bool), np.ones(len(radius), dtype=bool)
         self.adopt = self._pressing.adopt
         anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
         self._stiffness = contact.law.eps_N if anchors is None else anchors
@@ -54,7 +60,8 @@ class Touch:
     def place(self, x: Array, t: float) -> None:
         """The rods are at x; nothing is remembered."""
         self._t_0, self._x_0, self._X_0 = t, x.copy(), self._pose(t).back(x)
-        self._gap_0 = self.contact.surface.closest(self._X_0).distance - self._radius
+        closest = self.contact.surface.closest(self._X_0)
+        self._gap_0, self._n_0 = closest.distance - self._radius, closest.normal
         n = len(x)
         self._λ_0, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
         self._state = self._state_0 = np.full(n, OPEN, dtype=np.int8)
@@ -65,7 +72,7 @@ class Touch:
         self._λ = self._λ_0.copy()
         self._pressing.begin()
         self._slid = np.zeros((len(self._radius), 3))
-        self._clings = self._glides = self._stuck = np.zeros(len(self._radius), dtype=bool)
+        self._clings = self._glides = self._stuck = self._none
         self._ε_T = self._stiffness
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
         unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
@@ -91,27 +98,22 @@ class Touch:
         Returns:
             Forces and moments per length.
         """
-        step = self._step = self._led(self._end.back(x), turn @ self._end.Q - self._wall_turn)
-        Q, n = self._acting.Q, len(x)
-        normal, traction, moment = np.zeros((3, n, 3))
-        pressure, state = np.zeros(n), np.zeros(n, dtype=np.int8)
+        self._x, self._turn = np.array(x, order="C"), np.array(turn, order="C")
+        end = self._end
+        step = self._step = self._led(*onto_wall(self._x, self._turn, end.Q, end.c, self._wall_turn))
         pressed, on = step.pressed, step.on
-        pressure[on], normal[on] = pressed.p, pressed.n @ Q.T
-        state[on] = np.where(pressed.p != 0.0, SLIDES, OPEN)
+        rubs = (step.w, self._all[: len(on)])
         if step.rubbing is not None:
-            t = step.rubbing.traction
-            state[on] = np.where(pressed.p != 0.0, np.where(step.rubbing.slides, SLIDES, STICKS), OPEN)
-            traction[on] = t @ Q.T
-            moment[on] = -pressed.radius[:, None] * cross(pressed.n, t) @ Q.T
-        elif isinstance(self._friction, CreepingCoulomb) and len(on):
-            v, speed = against((x - self._x_0)[on], self._rate, self._friction.v_0)
-            traction[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
+            rubs = (step.rubbing.traction, step.rubbing.slides)
+        pushed = (pressed.p, pressed.n, pressed.radius, *rubs, self._acting.Q)
+        p, n, t, m, self._state, self._stuck, changed = felt(self._state, on, *pushed)
+        if isinstance(self._friction, CreepingCoulomb):
+            v, speed = against((self._x - self._x_0)[on], self._rate, self._friction.v_0)
+            t[on] = -self._friction.mu * (pressed.p / speed)[:, None] * v
         self.forced = step.rubbing is not None and step.rubbing.forced
-        self.changed = self.forced or not np.array_equal(state, self._state)
-        self._state, self._x, self._turn = state, x.copy(), turn.copy()
-        self._clings, self._glides = np.zeros((2, n), dtype=bool)
-        self._stuck = (state == STICKS) & (pressure > 0.0)
-        self._reply = Reply(step.gap, pressure, normal, traction, moment, state)
+        self.changed = self.forced or changed
+        self._clings = self._glides = self._none
+        self._reply = Reply(step.gap, p, n, t, m, self._state)
         return self._reply
 
     def _led(self, X: Array, turned: Array) -> Step:
@@ -123,33 +125,26 @@ class Touch:
         else:
             p, slope, touch, expected = self._pressing.mean(self._gap_0, gap, self._λ)
             closest = self.contact.surface.closest((1.0 - self._level) * self._X_0 + self._level * X)
-        p_X, on = slope[:, None] * at_end, np.flatnonzero(touch)
+        wall = (at_end, closest.normal, closest.curvature, self._level)
+        p_X, on, *few = gathered(touch, p, slope, *wall, self._arm, expected)
         self._pressing.led(X, p, p_X, touch)
-        pressed = Pressed(
-            p[on], p_X[on], closest.normal[on], self._level * closest.curvature[on], self._arm[on], expected[on]
-        )
-        share, none = np.ones(len(on)), np.zeros((len(on), 3))
+        pressed, none = Pressed(*few), np.zeros((len(on), 3))
         if not isinstance(self._friction, Coulomb) or not len(on):
-            return Step(X, turned, gap, at_end, on, pressed, share, none, none, None)
-        # What came from afar in this step has touched only over the last part of its way.
-        far = self._afar[on]
-        way = np.where(far & (self._gap_0 > gap)[on], (self._gap_0 - gap)[on], 1.0)
-        share = np.where(far, np.clip((self._pressing.law.g_0 - gap[on]) / way, 0.0, 1.0), 1.0)
-        w = (X - self._X_0)[on] - pressed.radius[:, None] * cross(turned[on], pressed.n)
-        v = self._u[on] + share[:, None] * w
+            return Step(X, turned, gap, at_end, on, pressed, none[:, 0], none, none, None)
+        past = (self._u, self._afar, gap, self._gap_0, self._pressing.law.g_0)
+        share, w, v = passed(on, X, self._X_0, turned, pressed.n, pressed.radius, *past)
         rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on], self._glides[on], self._slid[on])
         self._slid[:] = 0.0
         self._slid[on] = np.where(rubbing.slides[:, None], rubbing.u, 0.0)
         return Step(X, turned, gap, at_end, on, pressed, share, w, v, rubbing)
 
-    def _torn(self, X: Array, turned: Array, n: Array) -> NDArray[np.bool_]:
+    def _torn(self, X: Array, turned: Array, n: Array) -> Flags:
         """Points that stuck in the last answer, harder than the pressure there allows: they slide before they leave."""
-        torn, at = self._stuck.copy(), np.flatnonzero(self._stuck)
-        if len(at) and isinstance(self._friction, Coulomb):
-            w = (X - self._X_0)[at] - self._radius[at, None] * cross(turned[at], n[at])
-            _, far = far_off(self._u[at] + w, n[at])
-            torn[at] = far > self._friction.mu * self._reply.pressure[at] / self._ε_T
-        return torn
+        if not isinstance(self._friction, Coulomb) or not self._stuck.any():
+            return self._none
+        reach = self._friction.mu * self._reply.pressure / self._ε_T
+        found: Flags = torn(self._stuck, X, self._X_0, turned, n, self._radius, self._u, reach)
+        return found
 
     def gradient(self) -> Gradient:
         """Derivatives of the last reply."""
@@ -164,9 +159,9 @@ class Touch:
             still, law = replace(pressed, p_X=np.zeros_like(pressed.p_X)), (self._friction.mu, self._ε_T)
             t_x = traction_gradient(pressed, step.rubbing, u_x, *law)
             t_turn = traction_gradient(still, step.rubbing, u_turn, *law)
-            r, across = pressed.radius[:, None, None], skew(pressed.n)
-            m_x = -r * (across @ t_x - skew(step.rubbing.traction) @ pressed.n_X)
-            return self._in_space(f_x + t_x, t_turn, m_x, -r * (across @ t_turn))
+            lever = pressed.radius, step.rubbing.traction
+            m_x = lever_slopes(pressed.n, pressed.n_X, *lever, t_x)
+            return self._in_space(f_x + t_x, t_turn, m_x, lever_slopes(pressed.n, none, *lever, t_turn))
         if isinstance(self._friction, CreepingCoulomb):
             v, speed = against((self._x - self._x_0)[step.on], self._rate, self._friction.v_0)
             Q, end, μ = self._acting.Q, self._end.Q, self._friction.mu
@@ -174,8 +169,8 @@ class Touch:
         return self._in_space(f_x, none, none, none)
 
     def _in_space(self, *blocks: Array) -> Gradient:
-        f_x, f_turn, m_x, m_turn = (self._acting.Q @ block @ self._end.Q.T for block in blocks)
-        return Gradient(self._step.on, f_x, f_turn, m_x, m_turn)
+        Q, E = self._acting.Q, self._end.Q
+        return Gradient(self._step.on, *(into_space(Q, block, E) for block in blocks))
 
     def cling(self) -> None:
         """Begin the iteration with what was pressed and stuck before, wherever the wall has gone meanwhile."""
@@ -202,35 +197,39 @@ class Touch:
 
     def pierces(self) -> bool:
         """Whether the step has led into or through the wall: it was too long."""
-        return pierces(self.contact.surface, self._X_0, self._step.X)
+        step = self._step
+        ways = (self._X_0, step.X), (self._n_0, step.normal)
+        return pierces(self.contact.surface, *ways, step.gap + self._radius)
 
     def accept(self) -> Booked:
         """The step counts, with what has acted in it."""
-        step, reply = self._step, self._reply
+        step, reply, moved = self._step, self._reply, self._x - self._x_0
         # What acts against velocities in space knows no wall.
         creeps = isinstance(self._friction, CreepingCoulomb)
         force = reply.pressure[:, None] * reply.normal if creeps else reply.force
-        on, anchors = step.on, 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
-        in_wall = np.einsum("ni,ni->n", force @ self._acting.Q, step.X - self._X_0)
-        in_wall += np.einsum("ni,ni->n", reply.moment @ self._acting.Q, step.turned)
-        moved = self._x - self._x_0
-        pushed = np.einsum("ni,ni->n", force, moved) + np.einsum("ni,ni->n", reply.moment, self._turn) - in_wall
-        self._u[:] = 0.0
-        rubbed = anchors
+        past = (moved, self._turn, step.X - self._X_0, step.turned)
+        pushed = wall_work(force, reply.moment, self._acting.Q, *past)
+        on, anchored, traction = step.on[:0], step.w, step.w
         if step.rubbing is not None:
-            self._u[on], self._slip[on] = step.rubbing.anchored, self._slip[on] + step.rubbing.slipped
-            rubbed[on] -= np.einsum("ni,ni->n", step.rubbing.traction, step.w)
-        elif creeps:
+            on, anchored, traction = step.on, step.rubbing.anchored, step.rubbing.traction
+            self._slip[on] += step.rubbing.slipped
+        rubbed, self._u = rubbed_off(self._u, self._ε_T, on, anchored, traction, step.w)
+        if creeps:
             rubbed = -np.einsum("ni,ni->n", reply.traction, moved)
-        held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
         self._x_0, self._X_0, self._gap_0, self._t_0 = self._x, step.X, step.gap, self._t
+        self._n_0 = step.normal
         self._λ_0, self._state_0 = self._λ.copy(), self._state
-        return Booked(self.stored(), rubbed - held, pushed)
+        return Booked(self.stored(), rubbed, pushed)
 
     def stored(self) -> Array:
         """Energy per length in penetrations and anchors at the start of the step, shape (n,) [J/m]."""
         held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
         return np.asarray(self._pressing.law.energy(self._gap_0, self._λ_0) + held)
+
+    @property
+    def slip(self) -> Array:
+        """Way of the anchors under pressure so far, shape (n,) [m]."""
+        return self._slip
 
     def memory(self) -> dict[str, Array]:
         """All that the points remember, one row a point: what `recall` takes."""

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from functools import cached_property
+from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import VectorLike, assign, direction, positive, vector
+from dolfinrod.scene.surfaces.nearest import beside_axis
 from dolfinrod.scene.surfaces.polyline import ROUND_OFF
 from dolfinrod.scene.surfaces.surface import Closest
 from dolfinrod.scene.surfaces.wall import WallMotion, moving
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 __all__ = ["Cylinder"]
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -54,18 +56,15 @@ class Cylinder:
             motion=moving(self.motion, "Cylinder.motion"),
         )
 
-    def closest(self, x: NDArray[np.float64]) -> Closest:
+    def closest(self, x: Array) -> Closest:
         """See `Surface.closest`."""
-        axis, sign = np.asarray(self.axis), 1.0 if self.side == "outside" else -1.0
-        d = x - np.asarray(self.point)
-        # Twice, for the digits the first projection loses far along the axis.
-        for _ in range(2):
-            d = d - (d @ axis)[:, None] * axis
-        ρ = np.sqrt(np.einsum("ni,ni->n", d, d))
-        off = ρ > ROUND_OFF * self.radius
+        return Closest(*beside_axis(np.ascontiguousarray(x), *self._given))
+
+    @cached_property
+    def _given(self) -> tuple[Array, Array, Array, float, float, float]:
+        """What `beside_axis` is told of it."""
+        axis = np.asarray(self.axis)
         across = np.eye(3)[np.argmin(np.abs(axis))]
         across = across - (across @ axis) * axis
-        out = np.where(off[:, None], d / np.where(off, ρ, 1.0)[:, None], across / np.linalg.norm(across))
-        bend = np.where(off, sign / np.where(off, ρ, 1.0), 0.0)
-        around = np.eye(3) - axis[:, None] * axis - out[:, :, None] * out[:, None, :]
-        return Closest(sign * (ρ - self.radius), sign * out, bend[:, None, None] * around)
+        sign, norm = 1.0 if self.side == "outside" else -1.0, np.linalg.norm(across)
+        return np.asarray(self.point), axis, across / norm, self.radius, sign, ROUND_OFF * self.radius

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import pi, tan
+from math import inf, pi, tan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.quantity import UNIT, Vector, VectorLike, assign, direction, nonnegative, positive, vector
 from dolfinrod.scene.surfaces.faces import parts
+from dolfinrod.scene.surfaces.nearest import beside_groove
 from dolfinrod.scene.surfaces.polyline import ROUND_OFF, points, refuse_axis
 from dolfinrod.scene.surfaces.profile import Profile
 from dolfinrod.scene.surfaces.sections import flanked, rounded
@@ -204,33 +205,18 @@ class Groove:
         return Profile.through(np.asarray(self.profile), self.fillet)
 
     @cached_property
-    def _axes(self) -> tuple[Array, Array, Array]:
-        """Along the groove, to the right and up."""
+    def _given(self) -> tuple[Array, Array, float, float]:
+        """What `beside_groove` is told of it besides its section."""
         axis, up = np.asarray(self.axis), np.asarray(self.up)
-        return axis, np.cross(axis, up), up
+        roller = inf if self.roller is None else self.roller
+        return np.asarray(self.point), np.stack([axis, np.cross(axis, up), up]), roller, ROUND_OFF * roller
 
     def closest(self, x: Array) -> Closest:
-        """See `Surface.closest`; around a roller the nearest point lies in the plane through its axis.
+        """See `Surface.closest`.
 
-        The curvature around the roller is n_y/ρ with the distance ρ to its axis; on the axis it is taken as zero.
+        The curvature around a roller is n_y/ρ with the distance ρ to its axis; on the axis it is taken as zero.
         """
-        axis, right, up = self._axes
-        d = x - np.asarray(self.point)
-        z, y = d @ right, d @ up
-        forth, back, bend = np.ones(len(x)), np.zeros(len(x)), np.zeros(len(x))
-        if self.roller is not None:
-            along, height = d @ axis, y + self.roller
-            ρ = np.hypot(along, height)
-            off = ρ > ROUND_OFF * self.roller
-            bend = np.where(off, 1.0 / np.where(off, ρ, 1.0), 0.0)
-            forth, back, y = np.where(off, bend * height, 1.0), bend * along, ρ - self.roller
-        near = self._section.nearest(np.stack([z, y], axis=1))
-        out, around = np.outer(forth, up) + np.outer(back, axis), np.outer(forth, axis) - np.outer(back, up)
-        n_z, n_y = near.normal.T
-        across = n_z[:, None] * out - np.outer(n_y, right)
-        curvature = (near.curvature[:, None] * across)[:, :, None] * across[:, None, :]
-        curvature += ((n_y * bend)[:, None] * around)[:, :, None] * around[:, None, :]
-        return Closest(near.distance, np.outer(n_z, right) + n_y[:, None] * out, curvature)
+        return Closest(*beside_groove(np.ascontiguousarray(x), *self._given, self._section.pieces))
 
 
 def _upright(axis: VectorLike, up: VectorLike) -> tuple[Vector, Vector]:

@@ -45,5 +45,4 @@ class Plane:
     def closest(self, x: NDArray[np.float64]) -> Closest:
         """See `Surface.closest`."""
         n = np.asarray(self.normal)
-        normal = np.broadcast_to(n, x.shape)
-        return Closest((x - np.asarray(self.point)) @ n, normal, np.zeros((len(x), 3, 3)))
+        return Closest((x - np.asarray(self.point)) @ n, np.full(x.shape, n), np.zeros((len(x), 3, 3)))

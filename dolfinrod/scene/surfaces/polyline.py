@@ -13,7 +13,7 @@ __all__ = ["ROUND_OFF", "Points", "corners", "cross", "dot", "points", "refuse_a
 Array = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 Points = tuple[tuple[float, float], ...]
-ROUND_OFF = 16 * np.finfo(float).eps
+ROUND_OFF = 16 * float(np.finfo(float).eps)
 
 
 def points(value: object) -> Points:

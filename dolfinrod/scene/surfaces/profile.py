@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.errors import SceneError
+from dolfinrod.scene.surfaces.nearest import beside_profile
 from dolfinrod.scene.surfaces.polyline import ROUND_OFF, corners, cross, dot, refuse_crossings
 
 __all__ = ["Nearest", "Profile"]
@@ -99,29 +101,13 @@ class Profile:
         Returns:
             Distances, normals and curvatures.
         """
-        left, n_arcs = _left(self.along), len(self.centre)
-        upward = left[:-1] + left[1:]
-        (d_z, d_y), (e_z, e_y) = _apart(p, self.start), _apart(p, self.centre)
-        (t_z, t_y), (u_z, u_y) = self.along.T[:, :, None], upward.T[:, :, None]
-        # Rows are pieces, columns points: loops over points are the long ones.
-        s, h = t_z * d_z + t_y * d_y, t_z * d_y - t_y * d_z
-        behind, beyond = s < 0.0, s > self.length[:, None]
-        behind[0], beyond[-1], behind[1:-1][self.length[1:-1] == 0.0] = False, False, True
-        # Strips and wedges ask the same s, so that no rounding leaves a point without a piece.
-        elsewhere = np.vstack([(s[:-1] < self.length[:-1, None]) | (s[1:] > 0.0), behind | beyond])
-        ρ, side = np.hypot(e_z, e_y), np.where(u_z * e_z + u_y * e_y < 0.0, -1.0, 1.0)
-        φ = np.vstack([self.radius[:, None] + side * ρ, h])
-        best, point = np.argmin(np.where(elsewhere, np.inf, np.abs(φ)), axis=0), np.arange(len(p))
-        normal, curvature = left[np.maximum(best - n_arcs, 0)], np.zeros(len(p))
-        (round_,) = np.nonzero(best < n_arcs)
-        k, away = best[round_], (best[round_], round_)
-        # Closer to a lip or a centre than rounding, every direction is as good.
-        close = ρ[away] <= ROUND_OFF * np.abs(self.start).max()
-        bend = np.where(close, 0.0, side[away] / np.where(close, 1.0, ρ[away]))
-        middle = upward[k] / np.hypot(upward[k, 0], upward[k, 1])[:, None]
-        outward = bend[:, None] * np.stack([e_z[away], e_y[away]], axis=1)
-        normal[round_], curvature[round_] = np.where(close[:, None], middle, outward), bend
-        return Nearest(φ[best, point], normal, curvature)
+        return Nearest(*beside_profile(p, *self.pieces))
+
+    @cached_property
+    def pieces(self) -> tuple[Array, Array, Array, Array, Array, float]:
+        """Start, directions, lengths of flanks, centres and radii of arcs, and how close to a centre is round-off."""
+        close = float(ROUND_OFF * np.abs(self.start).max())
+        return self.start, self.along, self.length, self.centre, self.radius, close
 
 
 def _refuse_short(size: Array, taken: Array, numbers: NDArray[np.intp], fillet: float) -> NoReturn:
@@ -134,11 +120,6 @@ def _refuse_short(size: Array, taken: Array, numbers: NDArray[np.intp], fillet: 
     k = int(np.argmin(most))
     where = f"the flank from point {numbers[k + 1]} to {numbers[k + 2]} of the profile"
     raise SceneError(f"must be at most {most[k]:.6g} m for {where}, got {fillet!r} m", field="Groove.fillet")
-
-
-def _apart(p: Array, q: Array) -> tuple[Array, Array]:
-    """Components of p − q for each q (rows) and each p (columns)."""
-    return p[:, 0] - q[:, :1], p[:, 1] - q[:, 1:]
 
 
 def _left(a: Array) -> Array:
