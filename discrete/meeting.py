@@ -180,10 +180,7 @@ class Encounters:
 
         Where centrelines meet normals point anywhere, and balance there is none that holds.
         """
-        return any(meeting.pierces() for meeting in self._meetings) or any(map(self._crushed, self.record()))
-
-    def _crushed(self, met: Meetings) -> bool:
-        return bool((met.gap < -0.5 * (self._radius[met.rod_a] + self._radius[met.rod_b])).any())
+        return any(meeting.pierces() for meeting in self._meetings)
 
     def stored(self) -> float:
         """Energy in penetrations and anchors in the last state that counts, in EI/L."""

@@ -11,6 +11,9 @@ from typing import Any, TypeVar, cast
 
 __all__ = ["compiled"]
 
+# As arrays do: x/0 is infinite or no number, and an iteration that goes astray says so itself.
+DIVISION = "numpy"
+
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 
@@ -48,15 +51,24 @@ class _Compiled:
         own = Path(self._function.__code__.co_filename)
         return frozenset({own, Path(__file__)}).union(*(one._sources for one in self._called.values()))
 
+    def _built(self) -> FunctionType:
+        own = self._function
+        inner = {name: one._inner for name, one in self._called.items()}
+        return FunctionType(own.__code__, {**own.__globals__, **inner}, own.__name__)
+
+    @cached_property
+    def _inner(self) -> Callable[..., Any]:
+        """What others call: part of what is kept of them."""
+        from numba import njit
+
+        return cast(Callable[..., Any], njit(error_model=DIVISION)(self._built()))
+
     @cached_property
     def _kernel(self) -> Callable[..., Any]:
         from numba import njit
 
-        own = self._function
-        inner = {name: one._kernel for name, one in self._called.items()}
-        function = FunctionType(own.__code__, {**own.__globals__, **inner}, own.__name__)
+        function, own = self._built(), self._function
         # Numba keeps what it compiled by this name and renews it with the module alone, not with those that it calls.
         stamp = sha256(b"".join(path.read_bytes() for path in sorted(self._sources))).hexdigest()[:16]
         function.__qualname__, function.__module__ = f"{own.__qualname__}_{stamp}", own.__module__
-        # As arrays do: x/0 is infinite or no number, and an iteration that goes astray says so itself.
-        return cast(Callable[..., Any], njit(cache=True, error_model="numpy")(function))
+        return cast(Callable[..., Any], njit(cache=True, error_model=DIVISION)(function))

@@ -43,7 +43,7 @@ class Outcome:
 @pytest.fixture(autouse=True)
 def no_page(monkeypatch):
     """Pages have tests of their own."""
-    monkeypatch.setattr(bundles, "_page", lambda _: None)
+    monkeypatch.setattr(bundles, "report", lambda folder: folder / "index.html")
 
 
 @pytest.fixture
@@ -220,8 +220,7 @@ def test_a_terminal_shows_the_run_at_hand_and_keeps_failures(monkeypatch):
     assert pipe.getvalue().splitlines()[-1].startswith(last)
 
 
-def test_the_page_is_drawn_where_there_is_one(groove, brief, tmp_path, monkeypatch):
-    monkeypatch.setattr(bundles, "_page", lambda folder: folder / "index.html")
+def test_the_page_is_named_last(groove, brief, tmp_path):
     done = groove(brief, "--seeds", 1, "--out", tmp_path / "out")
     assert done.out.splitlines()[-1] == str(tmp_path / "out" / "index.html")
 

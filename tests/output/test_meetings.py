@@ -80,7 +80,7 @@ def test_the_record_sums_up_each_contact_among_rods(tmp_path):
     both, alone = record["meetings"]
     assert (both["law"], both["friction"], both["rods"]) == (
         "Penalty(eps_N=1000000.0, g_0=5e-05)",
-        "Coulomb(mu=0.3, eps_T=None)",
+        "Coulomb(mu=0.3, eps_T=None, at='surface')",
         None,
     )
     assert (alone["friction"], alone["rods"]) == (None, [1])

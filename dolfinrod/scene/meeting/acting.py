@@ -12,8 +12,8 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.changes import Changes
-from dolfinrod.scene.meeting.compiled import compiled
 from dolfinrod.scene.meeting.pressed import Pressed
 from dolfinrod.scene.meeting.slipping import Slip
 from dolfinrod.scene.meeting.slopes import RUBBING, WAYS, Leaning, Slid, pressing, rubbing

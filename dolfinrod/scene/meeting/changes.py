@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.compiled import compiled
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.slopes import GAP, OPPOSITE, TURNS, WAYS
 from dolfinrod.scene.meeting.vectors import Point, added, dotted, row, scaled
 

@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.changes import Changes, applied, diagonal, summed
-from dolfinrod.scene.meeting.compiled import compiled
 
 __all__ = ["Coupling", "Felt", "Nodal", "dealt"]
 

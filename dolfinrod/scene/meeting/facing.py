@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.compiled import compiled
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.curves import Course, dot
 from dolfinrod.scene.meeting.projection import begin_at, opposite
 

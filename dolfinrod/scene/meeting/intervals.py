@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.compiled import compiled
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.curves import Course, Curves, along, spot
 from dolfinrod.scene.meeting.projection import begin, chords_apart, closest
 from dolfinrod.scene.meeting.vectors import row

@@ -7,7 +7,7 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.compiled import compiled
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.curves import Curves, along, spot
 from dolfinrod.scene.meeting.vectors import Point, row
 

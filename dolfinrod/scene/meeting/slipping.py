@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.friction import Coulomb
-from dolfinrod.scene.meeting.compiled import compiled
 from dolfinrod.scene.meeting.pressed import Pressed
 from dolfinrod.scene.meeting.vectors import crossed, rotated, row
 from dolfinrod.scene.rubbing import Pressed as Limits

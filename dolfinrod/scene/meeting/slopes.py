@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.compiled import compiled
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.vectors import Point, across, added, crossed, dotted, row, scaled, turned_by
 
 __all__ = ["GAP", "OPPOSITE", "RUBBING", "TURNS", "WAYS", "Leaning", "Slid", "pressing", "rubbing"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.compiled import compiled
+from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.curves import Course
 from dolfinrod.scene.meeting.intervals import intervals
 from dolfinrod.scene.meeting.neighbours import Neighbours

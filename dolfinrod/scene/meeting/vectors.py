@@ -7,7 +7,7 @@ from math import sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.meeting.compiled import compiled
+from dolfinrod.scene.compiled import compiled
 
 __all__ = ["Point", "across", "added", "crossed", "dotted", "rotated", "row", "scaled", "turned", "turned_by"]
 
