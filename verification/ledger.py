@@ -29,6 +29,7 @@ from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
 from verification.groovebench import GroovePoint, GrooveSweep
 from verification.grooveprofile import GrooveProfile, SideBySide
+from verification.growth import Cost, Growth
 from verification.hard import HardRow
 from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
@@ -55,13 +56,14 @@ Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
 Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
 Other = Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study | TwistStudy
-Row = Trial | Moved | Touched | Other
+Row = Trial | Moved | Touched | Cost | Other
 PARTS = (
     Attempt,
     BundleCost,
     ContactRecord,
     GroovePoint,
     GrooveProfile,
+    Growth,
     Measured,
     MotionRecord,
     Order,
@@ -84,7 +86,7 @@ class Unit:
     Args:
         topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
             "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
-            "frequency", "drift", "bundle",
+            "frequency", "drift", "bundle", "cost",
             "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map",
             "hard contact", "meeting" or "twist".
         words: What is solved, for people.

@@ -17,6 +17,7 @@ from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
 from verification.groovebench import GrooveSweep
 from verification.grooveprofile import SideBySide
+from verification.growth import Cost
 from verification.hard import HardRow, Share, shares
 from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
 __all__ = ["Missed", "Report", "report", "work_off"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
-Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | TopStudy
+Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | Cost | MotionStudy | PaperFibre | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
 Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow | TwistStudy
 # Fields of the report that are the rows of a topic, as they come.
@@ -62,6 +63,7 @@ AS_FOUND = {
     "maps": "map",
     "motions": "hard motion",
     "bundles": "bundle",
+    "costs": "cost",
     "tops": "rigid",
     "touching": "contact",
     "grooves": "groove",
@@ -105,6 +107,7 @@ class Report:
         fibres: The paper's fibre in its own steps.
         paces: Milliseconds a step.
         bundles: What more and more fibres cost, and on one rank and on two.
+        costs: Of iterations, also on finer and finer meshes, and of whole processes.
         tops: Rigid bodies by each rotation integrator.
         touching: Rods on rigid surfaces on finer and finer levels.
         grooves: The fibre in the groove over steps, elements and penalty.
@@ -143,6 +146,7 @@ class Report:
     fibres: tuple[PaperFibre, ...] = ()
     paces: tuple[Pace, ...] = ()
     bundles: tuple[BundleStudy | BundleRanks, ...] = ()
+    costs: tuple[Cost, ...] = ()
     contenders: tuple[Contender, ...] = ()
     tops: tuple[TopStudy, ...] = ()
     touching: tuple[ContactStudy, ...] = ()
@@ -171,7 +175,7 @@ class Report:
         for rows in (*kinds, self.hard, self.shares, self.largest, self.limits, self.maps, self.motions):
             missed += [row for row in rows if not row.holds]
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
-        missed += [row for row in (*moved, *self.bundles) if not row.holds]
+        missed += [row for row in (*moved, *self.bundles, *self.costs) if not row.holds]
         touched: tuple[Touched, ...] = (*self.touching, *self.grooves, *self.beside, *self.contact_maps)
         missed += [row for row in (*touched, *self.hard_contacts, *self.meetings, *self.twists) if not row.holds]
         missed += [row for row in self.fewest if row.missed]

@@ -10,6 +10,7 @@ from verification import (
     bundletrials,
     contactwork,
     eigencases,
+    growthtrials,
     hardcases,
     motiontrials,
     stepping,
@@ -43,6 +44,7 @@ def names() -> tuple[str, ...]:
         *stepping.names(),
         *motiontrials.names(),
         *bundletrials.names(),
+        *growthtrials.names(),
         *toptrials.names(),
         *CONTACT.names(),
         *contactwork.names(),
@@ -86,6 +88,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from stepping.listing(asked)
     yield from motiontrials.listing(asked)
     yield from bundletrials.listing(asked)
+    yield from growthtrials.listing(asked)
     yield from toptrials.listing(asked)
     yield from CONTACT.listing(asked)
     yield from contactwork.listing(asked)
@@ -117,6 +120,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from stepping.units(asked, quick=quick)
     yield from motiontrials.units(asked, quick=quick)
     yield from bundletrials.units(asked, quick=quick)
+    yield from growthtrials.units(asked, quick=quick)
     yield from toptrials.units(asked, quick=quick)
     yield from CONTACT.units(asked, quick=quick)
     yield from contactwork.units(asked, quick=quick)

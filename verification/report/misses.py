@@ -7,6 +7,7 @@ from typing import Any
 
 from verification.bundles import BundleRanks, BundleStudy
 from verification.checks import Check
+from verification.cold import Cold
 from verification.contact import ContactStudy
 from verification.contactmaps import ContactCell
 from verification.crosscheck import BAND, CrossCheck
@@ -15,10 +16,12 @@ from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
 from verification.groovebench import LIMIT, GrooveSweep
 from verification.grooveprofile import AGREES, SideBySide
+from verification.growth import GrowthStudy
 from verification.hard import HardRow, Share
 from verification.hardcontact import MOST_ITERATIONS, ContactRow
 from verification.hardmotion import MotionRow
 from verification.laws import LawRow
+from verification.limit import Limit
 from verification.maps import Cell
 from verification.motion import MotionStudy
 from verification.onestep import OneStep
@@ -52,6 +55,11 @@ def _(row: Check) -> str:
     words = "least error" if row.quantity == "digits" else row.quantity
     asked = f"at most {scientific(row.limit, 0)}" + (", or the order of theory" if row.quantity == "digits" else "")
     return f"{row.title}: {row.model} {words} {scientific(row.found)} ({row.mesh}), {asked}"
+
+
+@sentence.register
+def _(row: Cold) -> str:
+    return f"A process, {row.words}: {row.failure}"
 
 
 @sentence.register
@@ -173,7 +181,7 @@ def _(row: DriftStudy) -> str:
 
 
 @sentence.register
-def _(row: BundleStudy | BundleRanks) -> str:
+def _(row: BundleStudy | BundleRanks | GrowthStudy | Limit) -> str:
     return row.words
 
 

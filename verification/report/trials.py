@@ -5,7 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from verification.references.robustness import PEER_LOADS
-from verification.report import bundles, contact, contactmaps, groove, hardcontact, meetings, motion, rigid, twist
+from verification.report import (
+    bundles,
+    contact,
+    contactmaps,
+    groove,
+    hardcontact,
+    limit,
+    meetings,
+    motion,
+    rigid,
+    twist,
+)
 from verification.report.critical import brackets, eigenvalues
 from verification.report.hardmotion import hard_motions
 from verification.report.maps import limits, maps
@@ -29,6 +40,7 @@ TITLES = {
     "hard-motion": "Hard cases in motion",
     **motion.TITLES,
     "bundles": bundles.TITLE,
+    **limit.TITLES,
     "tops": rigid.TITLE,
     "contact": contact.TITLE,
     "groove": groove.TITLE,
@@ -69,6 +81,7 @@ WORDS = {
     "attempts failed than steps were asked for.",
     **motion.WORDS,
     "bundles": bundles.WORDS,
+    **limit.WORDS,
     "tops": rigid.WORDS,
     "contact": contact.WORDS,
     "groove": groove.WORDS,
@@ -93,6 +106,7 @@ def contents(report: Report) -> dict[str, str]:
     }
     parts |= motion.contents(report)
     parts["bundles"] = bundles.bundles(report.bundles) if report.bundles else ""
+    parts |= limit.contents(report)
     parts["tops"] = rigid.tops(report.tops) if report.tops else ""
     parts["contact"] = contact.contact_cases(report.touching) if report.touching else ""
     parts["groove"] = groove.groove(report.grooves, report.beside) if report.grooves or report.beside else ""
@@ -116,6 +130,7 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
         ("hard-motion", report.motions, "hard motions: finished with a sound ledger, or refused with a reason"),
         *motion.outcomes(report),
         ("bundles", report.bundles, "bundles moved to their ends, on ranks to the same"),
+        ("growth", limit.growths(report), "models of which an iteration grows no faster than the elements"),
         ("tops", report.tops, "rigid tops: orders of theory, momentum kept, energy lost or swinging as it should"),
         ("contact", report.touching, "ways to take a rod on a surface: answers within their limits, orders as stated"),
         ("groove", (*report.grooves, *report.beside), "ways into the groove on which the models agree"),
