@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.endforces import QuickElement
+from discrete.corotation import ChordElement
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,10 +46,10 @@ class Damping:
 
     def __init__(self, elements: Elements, sections: Sequence[Section], *, paper_strain: bool) -> None:
         self._elements = elements
-        self._elastic = QuickElement(elements, paper_strain=paper_strain)
+        self._elastic = ChordElement(elements, paper_strain=paper_strain)
         self._τ = np.array([section.damping for section in sections])[elements.rod]
 
-    def over(self, dt: float, before: Strain) -> QuickElement:
+    def over(self, dt: float, before: Strain) -> ChordElement:
         """The law of a step that begins at a strain: stiffness (1 + τ/Δt) k, minus (τ/Δt) k Δ₀."""
         ratio = self._τ / dt
         behind = ratio[:, None, None] * self._elastic.moments(before.θ)

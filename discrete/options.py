@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from discrete.corotation import ChordElement
-from discrete.endforces import QuickElement
 from discrete.nodeframe import EnergyNodeElement, PaperElement
 from dolfinrod.scene import Dynamic, SceneError
 
@@ -66,5 +65,5 @@ def law(elements: Elements, axial: str, frame: str) -> Element:
 def law_in_time(elements: Elements, chosen: Mapping[str, str]) -> Element:
     """The same law, faster where there is a faster way to work it out."""
     if chosen["frame"] == "element":
-        return QuickElement(elements, paper_strain=chosen["axial"] == "paper")
+        return ChordElement(elements, paper_strain=chosen["axial"] == "paper")
     return law(elements, chosen["axial"], chosen["frame"])

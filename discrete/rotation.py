@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["cross", "eta", "exp", "log", "rate", "skew", "tangents"]
+__all__ = ["coefficients", "cross", "eta", "exp", "log", "rate", "skew", "tangents"]
 
 # Below this angle [rad] the coefficients are summed as series: the closed forms cancel there.
 _SMALL = 0.5
@@ -103,22 +103,20 @@ def log(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     return axial
 
 
-def _coefficients(theta: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def coefficients(square: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Coefficient η(φ) = (1 − (φ/2) cot(φ/2))/φ² of the tangent map, and η′(φ)/φ.
 
     Args:
-        theta: Rotation vectors, shape (..., 3) [rad].
+        square: Squared angles φ² below (2π)² [rad²].
 
     Returns:
-        Both coefficients, shape (...).
+        Both coefficients, of the same shape.
     """
-    square = np.einsum("...i,...i->...", theta, theta)
-    eta, slope = np.full_like(square, _ETA[-1]), np.full_like(square, _SLOPE[-1])
-    for e, d in zip(_ETA[-2::-1], _SLOPE[-2::-1], strict=True):
-        eta = e + square * eta
-        slope = d + square * slope
+    largest = square.max(initial=0.0)
+    terms = 3 if largest < _TINY else len(_ETA)
+    eta, slope = _summed(_ETA[:terms], square), _summed(_SLOPE[:terms], square)
     large = square > _SMALL**2
-    if large.any():
+    if largest > _SMALL**2:
         s = np.where(large, square, 1.0)
         angle = np.sqrt(s)
         sine = np.sin(0.5 * angle)
@@ -128,15 +126,20 @@ def _coefficients(theta: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDAr
     return eta, slope
 
 
+def _summed(terms: tuple[float, ...], square: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Σ a_k φ^2k."""
+    value = terms[-1] * square
+    for a in terms[-2:0:-1]:
+        value += a
+        value *= square
+    value += terms[0]
+    return value
+
+
 def eta(square: NDArray[np.float64]) -> NDArray[np.float64]:
     """Coefficient η of `tangents` alone, of squared angles below (2π)²."""
     largest = square.max(initial=0.0)
-    terms = _ETA[:3] if largest < _TINY else _ETA
-    value = square * terms[-1]
-    for e in terms[-2:0:-1]:
-        value += e
-        value *= square
-    value += terms[0]
+    value = _summed(_ETA[:3] if largest < _TINY else _ETA, square)
     if largest > _SMALL**2:
         half = 0.5 * np.sqrt(np.maximum(square, _SMALL**2))
         value = np.where(square > _SMALL**2, 0.25 * (1.0 - half * np.cos(half) / np.sin(half)) / half**2, value)
@@ -168,7 +171,7 @@ def tangents(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Change of a rotation vector with the spin, and of the moment conjugate to the spin with the rotation vector.
 
-    δθ = Θ(θ) φ where δ(exp θ) = [φ]× exp θ; the moment conjugate to φ is Θᵀμ. With (η, η′) of `_coefficients`
+    δθ = Θ(θ) φ where δ(exp θ) = [φ]× exp θ; the moment conjugate to φ is Θᵀμ. With (η, η′) of `coefficients`
     Θ = I − ½ [θ]× + η [θ]×², [θ]×² = θ θᵀ − φ² I,
     ∂(Θᵀμ)/∂θ = −½ [μ]× + η ((θ·μ) I + θ μᵀ − 2 μ θᵀ) + (η′/φ) (θ×(θ×μ)) θᵀ.
 
@@ -179,10 +182,9 @@ def tangents(
     Returns:
         Θ and ∂(Θᵀμ)/∂θ, shapes (..., 3, 3).
     """
-    eta, slope = _coefficients(theta)
     along = np.einsum("...i,...i->...", theta, moment)[..., None]
     square = np.einsum("...i,...i->...", theta, theta)[..., None]
-    eta, slope = eta[..., None], slope[..., None]
+    eta, slope = coefficients(square)
     scaled = eta * theta
     tangent = scaled[..., :, None] * theta[..., None, :]
     tangent -= skew(0.5 * theta)

@@ -6,10 +6,13 @@
     scene = dr.Scene(rods=[rod], supports=[dr.Clamp(at="start")], loads=[dr.PointForce((0, -1, 0), at="end")])
     result = dr.solve(scene, elements=8, degree=3)
 
-Importing this package loads neither DOLFINx nor PETSc; `solve` does.
+Importing this package loads neither DOLFINx nor PETSc; `solve` does. `groove` and `twist` load when they are used.
 """
 
-from dolfinrod import groove, twist
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING
+
 from dolfinrod.eigen import Buckling, Modes, RodShapes
 from dolfinrod.result import (
     ContactHistory,
@@ -61,6 +64,9 @@ from dolfinrod.scene import (
     WallMotion,
 )
 from dolfinrod.solving import buckling, critical, modes, solve
+
+if TYPE_CHECKING:
+    from dolfinrod import groove, twist
 
 __all__ = [
     "Air",
@@ -118,3 +124,10 @@ __all__ = [
     "solve",
     "twist",
 ]
+
+
+def __getattr__(name: str) -> ModuleType:
+    """Packages of their own, loaded when somebody asks for them: most scenes have neither."""
+    if name in ("groove", "twist"):
+        return import_module(f"dolfinrod.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import platform
-from importlib import metadata
 
 __all__ = ["versions"]
 
@@ -25,6 +24,9 @@ PACKAGES = (
 
 def versions() -> dict[str, str]:
     """Versions by name; packages that are not installed are left out."""
+    # Its e-mail parser and all: a tenth of what a solve without a record loads.
+    from importlib import metadata
+
     found = {"python": platform.python_version()}
     for package in PACKAGES:
         try:

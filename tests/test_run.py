@@ -137,6 +137,7 @@ def test_second_run_installs_nothing_until_the_project_changes(machine):
     installed = machine.calls
     assert first.returncode == 0
     assert [call for call in installed if "pip install" in call and "--no-deps" in call]
+    assert "-m dolfinrod.continuum.precompile" in installed
     second = machine.run("shell", "-c", "exit 0")
     assert (second.returncode, second.stdout, second.stderr) == (0, "", "")
     assert machine.calls == installed
@@ -160,6 +161,7 @@ def test_failed_set_up_is_tried_again(machine):
         (["report", "--quick"], "-m verification --quick"),
         (["test", "-k", "elastica"], "-m pytest --numprocesses=auto --maxprocesses=4 -k elastica"),
         (["report", "elastica*", "--out", "there"], "-m verification elastica* --out there"),
+        (["compile", "4", "5"], "-m dolfinrod.continuum.precompile 4 5"),
         (["test", "--all", "-x"], "-m pytest --numprocesses=auto --maxprocesses=4 -m  -x"),
     ],
 )

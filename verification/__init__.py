@@ -21,6 +21,8 @@
 `meetings`      rods on rods with known answers, taken as contact cases are
 `rigid`         rigid tops through each rotation integrator; `rigidbodies`, both of them; `toptrials`, as units
 `bundles`       what more and more fibres cost, each bundle by `bundlerun`; `bundletrials`, as units
+`limit`         where the time of an iteration goes, by `limitrun`; `growth` on finer meshes; `cold` processes;
+                `growthtrials`, as units
 `robustness`    largest load in one step; fewest steps of `benchmarks`
 `checks`        errors, orders and digits that must hold
 `shape`         what is drawn

@@ -20,7 +20,7 @@ from verification.bundlescene import bundle
 if TYPE_CHECKING:
     from dolfinrod.result import Result, StepLog
 
-__all__ = ["Watch", "main"]
+__all__ = ["Watch", "main", "memory"]
 
 # Methods by what they do: of the law both models share, and of the solvers.
 PARTS = {
@@ -86,7 +86,7 @@ def main(model: str, elements: int, degree: int, fibres: int, steps: int) -> Non
     def progress(row: StepLog, _: float) -> None:
         tried.append(row.cuts)
 
-    before, began, clock = _memory(), process_time(), perf_counter()
+    before, began, clock = memory(), process_time(), perf_counter()
     result: Result = solve(scene, progress=progress, **options)
     told = {
         "steps": result.statistics.load_steps,
@@ -96,7 +96,7 @@ def main(model: str, elements: int, degree: int, fibres: int, steps: int) -> Non
         "spots": len(result.meetings[0].times[-1].s_a),
         "seconds": process_time() - began,
         **watch.seconds,
-        "memory": _memory() - before,
+        "memory": memory() - before,
         "clock": perf_counter() - clock,
         "x": [rod.r[-1].tolist() for rod in result.rods],
     }
@@ -105,7 +105,7 @@ def main(model: str, elements: int, degree: int, fibres: int, steps: int) -> Non
         sys.stdout.write(json.dumps(told) + "\n")
 
 
-def _memory() -> float:
+def memory() -> float:
     """Largest so far [MB]; that of `resource` would begin with what the caller had."""
     status = Path("/proc/self/status").read_text(encoding="utf-8")
     return float(status.split("VmHWM:")[1].split()[0]) / 1e3

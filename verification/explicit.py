@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from discrete.assembly import scatter
-from discrete.endforces import QuickElement
+from discrete.corotation import ChordElement
 from discrete.loads import Loads
 from discrete.mass import node_masses
 from discrete.mesh import mesh
@@ -122,7 +122,7 @@ class Explicit:
 
     def __init__(self, scene: Scene, elements: int) -> None:
         self.mesh = mesh(scene, elements)
-        self._law = QuickElement(self.mesh.elements, paper_strain=False)
+        self._law = ChordElement(self.mesh.elements, paper_strain=False)
         self._loads = Loads(scene, self.mesh)
         self.inertia = Inertia(*node_masses(self.mesh, [rod.section for rod in scene.rods], whole_ends=False))
         self.held: Places = Supports(scene, self.mesh).firm

@@ -33,6 +33,7 @@ from verification.groovepaper import PaperRun
 from verification.grooveprofile import GrooveProfile, SideBySide
 from verification.groovescenario import GrooveEnsemble
 from verification.groovescenariobeside import GrooveImage, GrooveModels
+from verification.growth import Cost, Growth
 from verification.hard import HardRow
 from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
@@ -61,13 +62,14 @@ Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | 
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
 Gathered = GrooveEnsemble | GrooveImage | GrooveModels | PaperRun
 Other = Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study | TwistStudy
-Row = Trial | Moved | Touched | Gathered | Other
+Row = Trial | Moved | Touched | Gathered | Cost | Other
 PARTS = (
     Attempt,
     BundleCost,
     ContactRecord,
     GroovePoint,
     GrooveProfile,
+    Growth,
     Measured,
     MotionRecord,
     Order,
@@ -90,7 +92,7 @@ class Unit:
     Args:
         topic: Of the report: "study", "shape", "limit", "one step", "speed", "law", "critical", "bracket", "hard",
             "largest", "fewest", "explicit limit", "map", "hard motion", "peer", "motion",
-            "frequency", "drift", "bundle", "ranks",
+            "frequency", "drift", "bundle", "ranks", "cost",
             "pace", "paper fibre", "rigid", "contact", "groove", "side by side", "contact map",
             "hard contact", "meeting", "twist" or "groove scenario".
         words: What is solved, for people.

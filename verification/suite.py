@@ -18,6 +18,7 @@ from verification.frequency import FrequencyStudy
 from verification.groovebench import GrooveSweep
 from verification.grooveprofile import SideBySide
 from verification.groovescenarioclaims import Gathered, with_claims
+from verification.growth import Cost
 from verification.hard import HardRow, Share, shares
 from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
@@ -46,7 +47,7 @@ if TYPE_CHECKING:
 __all__ = ["Missed", "Report", "report"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
-Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | PaperFibre | RankRow | TopStudy
+Moved = BundleRanks | BundleStudy | DriftStudy | Cost | FrequencyStudy | MotionStudy | PaperFibre | RankRow | TopStudy
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide | Gathered
 Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow | TwistStudy
 # Fields of the report that are the rows of a topic, as they come.
@@ -64,6 +65,7 @@ AS_FOUND = {
     "motions": "hard motion",
     "bundles": "bundle",
     "ranks": "ranks",
+    "costs": "cost",
     "tops": "rigid",
     "touching": "contact",
     "grooves": "groove",
@@ -108,6 +110,7 @@ class Report:
         paces: Milliseconds a step.
         bundles: What more and more fibres cost, and on one rank and on two.
         ranks: Kinds of scenes on one rank and on two.
+        costs: Of iterations, also on finer and finer meshes, and of whole processes.
         tops: Rigid bodies by each rotation integrator.
         touching: Rods on rigid surfaces on finer and finer levels.
         grooves: The fibre in the groove over steps, elements and penalty.
@@ -150,6 +153,7 @@ class Report:
     paces: tuple[Pace, ...] = ()
     bundles: tuple[BundleStudy | BundleRanks, ...] = ()
     ranks: tuple[RankRow, ...] = ()
+    costs: tuple[Cost, ...] = ()
     contenders: tuple[Contender, ...] = ()
     jobs: int = 1
     spent: tuple[Spent, ...] = ()
@@ -181,7 +185,7 @@ class Report:
         for rows in (*kinds, self.hard, self.shares, self.largest, self.limits, self.maps, self.motions):
             missed += [row for row in rows if not row.holds]
         moved: tuple[Moved, ...] = (*self.moved, *self.frequencies, *self.drifts, *self.fibres, *self.tops)
-        missed += [row for row in (*moved, *self.bundles, *self.ranks, *self.scenarios) if not row.holds]
+        missed += [row for row in (*moved, *self.bundles, *self.ranks, *self.costs, *self.scenarios) if not row.holds]
         touched: tuple[Touched, ...] = (*self.touching, *self.grooves, *self.beside, *self.contact_maps)
         missed += [row for row in (*touched, *self.hard_contacts, *self.meetings, *self.twists) if not row.holds]
         missed += [row for row in self.fewest if row.missed]

@@ -11,6 +11,7 @@ from verification import (
     contactwork,
     eigencases,
     groovescenariotrials,
+    growthtrials,
     hardcases,
     motiontrials,
     ranktrials,
@@ -46,6 +47,7 @@ def names() -> tuple[str, ...]:
         *motiontrials.names(),
         *bundletrials.names(),
         *ranktrials.names(),
+        *growthtrials.names(),
         *toptrials.names(),
         *CONTACT.names(),
         *contactwork.names(),
@@ -91,6 +93,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     yield from motiontrials.listing(asked)
     yield from bundletrials.listing(asked)
     yield from ranktrials.listing(asked)
+    yield from growthtrials.listing(asked)
     yield from toptrials.listing(asked)
     yield from CONTACT.listing(asked)
     yield from contactwork.listing(asked)
@@ -124,6 +127,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from motiontrials.units(asked, quick=quick)
     yield from bundletrials.units(asked, quick=quick)
     yield from ranktrials.units(asked, quick=quick)
+    yield from growthtrials.units(asked, quick=quick)
     yield from toptrials.units(asked, quick=quick)
     yield from CONTACT.units(asked, quick=quick)
     yield from contactwork.units(asked, quick=quick)

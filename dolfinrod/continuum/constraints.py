@@ -61,16 +61,14 @@ class Constraints:
             for s in scene.supports
             if isinstance(s, Prescribed) and s.rotation is not None
         ]
-        self.dofs = np.concatenate([np.zeros(0, np.int32), *(d for d, _ in self._parts(0.0))]).astype(np.int32)
         self._moving = any(isinstance(s, Prescribed) for s in scene.supports)
-        self._at_rest = self._values(0.0)
+        at_rest = self._parts(0.0)
+        self.dofs = np.concatenate([np.zeros(0, np.int32), *(d for d, _ in at_rest)]).astype(np.int32)
+        self._at_rest = _joined(at_rest)
 
     def values(self, t: float) -> NDArray[np.float64]:
         """Values of `dofs` at time t."""
-        return self._values(t) if self._moving else self._at_rest
-
-    def _values(self, t: float) -> NDArray[np.float64]:
-        return np.concatenate([np.zeros(0), *(v for _, v in self._parts(t))])
+        return _joined(self._parts(t)) if self._moving else self._at_rest
 
     def largest_turn(self, t_0: float, t_1: float) -> float:
         """Largest change of a prescribed rotation between two times [rad]."""
@@ -121,3 +119,8 @@ class Constraints:
             parts = [(node["q"], q)]
             return parts + ([(node["multiplier"], np.zeros(1))] if "multiplier" in node else [])
         return [(node["q"][[1 + a for a in held]], np.zeros(len(held)))]
+
+
+def _joined(parts: list[tuple[NDArray[np.int32], NDArray[np.float64]]]) -> NDArray[np.float64]:
+    """The values of all parts."""
+    return np.concatenate([np.zeros(0), *(values for _, values in parts)])

@@ -96,6 +96,7 @@ class Discretization:
         index_map = self.space.dofmap.index_map
         self.n_owned, self.n_dofs = int(index_map.size_local), int(index_map.size_global)
         self.dofs = {f: backend.cell_dofs(self.space, i) for i, f in enumerate(self.kinematics.fields)}
+        self._owned = {f: self._distinct(dofs) for f, dofs in self.dofs.items()}
         spanned = self._spanned_matrix(rubbed=rubbed)
         self.matrix = backend.without_zeros(spanned)
         self.band = Band(self.matrix, backend.order_by_neighbours(spanned)) if comm.size == 1 else None
@@ -131,6 +132,8 @@ class Discretization:
         self.r_0, self.C_n, self.C_m, self.f = (
             backend.function(backend.space(self.mesh, elements[name])) for name in ("r_0", "C_n", "C_m", "f")
         )
+        given = (self.r_0, self.C_n, self.C_m, self.f)
+        self._at = {function: backend.cell_dofs(function.function_space) for function in given}
 
     def _bind_forms(self, excess: ExcessForms | None) -> None:
         functions = {"x": self.x, "r_0": self.r_0, "C_n": self.C_n, "C_m": self.C_m, "f": self.f}
@@ -147,7 +150,10 @@ class Discretization:
 
     def owned_nodes(self, field: str) -> NDArray[np.int32]:
         """Dofs of the distinct nodes of a field that this rank owns, shape (nodes, components)."""
-        nodes = self.dofs[field].reshape(-1, self.dofs[field].shape[2])
+        return self._owned[field]
+
+    def _distinct(self, dofs: NDArray[np.int32]) -> NDArray[np.int32]:
+        nodes = dofs.reshape(-1, dofs.shape[2])
         nodes = nodes[np.unique(nodes[:, 0], return_index=True)[1]]
         return nodes[nodes[:, 0] < self.n_owned]
 
@@ -155,7 +161,7 @@ class Discretization:
         """Give the forms their numbers; nothing is compiled or allocated."""
         geometry = self.mesh.geometry
         geometry.x[geometry.dofmap.array.reshape(-1, 2), 0] = values.ends
-        self.r_0.x.array[backend.cell_dofs(self.r_0.function_space)] = values.r_0
+        self._fill(self.r_0, values.r_0)
         for function, C in ((self.C_n, values.C_n), (self.C_m, values.C_m)):
             i, j = np.triu_indices(C.shape[-1])
             self._fill(function, C[..., i, j])
@@ -168,9 +174,9 @@ class Discretization:
         if self.excess is not None:
             self.excess.begin(x_0, self._τ / dt, level)
 
-    def _fill(self, function: fem.Function, at_points: NDArray[np.float64]) -> None:
-        """Give a coefficient its values at the Gauss points, shape (cells, points, components)."""
-        function.x.array[backend.cell_dofs(function.function_space)] = at_points
+    def _fill(self, function: fem.Function, values: NDArray[np.float64]) -> None:
+        """Give a coefficient its values at the points of its elements, shape (cells, points, components)."""
+        function.x.array[self._at[function]] = values
 
     def assembled_residual(self) -> NDArray[np.float64]:
         """Residual of the forms at the current state, summed over all ranks, on all local dofs."""

@@ -74,6 +74,7 @@ class Problem:
         self._set_values()
         self.constraints = Constraints(scene, self.kinematics, placement, self.locate)
         self._lump()
+        self._beyond: NDArray[np.int32] | None = None
         self.hold(np.zeros(0, dtype=np.int32))
         self._point_terms = point_terms(scene, self.kinematics, placement, self._locate_owned)
         self.line_loads = list(zip(self._line_histories, discretization.line_loads(self._line_fields), strict=True))
@@ -115,8 +116,7 @@ class Problem:
         if not ends.size or ends.min() > SAME_PLACE:
             return None
         cell, end = np.unravel_index(int(np.argmin(ends)), ends.shape)
-        fields = [f for f in self.kinematics.fields if f not in ("N", "m")]
-        return {f: self.discretization.dofs[f][cell, end] for f in fields}
+        return {f: self.discretization.dofs[f][cell, end] for f in self.kinematics.fields if f not in ("N", "m")}
 
     def _locate_owned(self, rod: int, s: float) -> dict[str, NDArray[np.int32]] | None:
         """As `locate`, for a node this rank owns."""
@@ -126,13 +126,15 @@ class Problem:
     def hold(self, dofs: NDArray[np.int32]) -> None:
         """Hold these dofs where they are, on top of the supports, until the next call."""
         n_owned = self.discretization.n_owned
+        self.held_force = np.zeros(0)
+        if self._beyond is not None and np.array_equal(dofs, self._beyond):
+            return
+        self._beyond = dofs
         held = np.union1d(self.constraints.dofs, dofs).astype(np.int32)
         self.excluded = np.zeros(len(self.x), dtype=bool)
         self.excluded[held] = True
         self._mask = backend.held_dofs(self.discretization.x, held)
-        self._held = held[held < n_owned]
-        self._extra = dofs[dofs < n_owned]
-        self.held_force = np.zeros(0)
+        self._held, self._extra = held[held < n_owned], dofs[dofs < n_owned]
 
     def advance_to(self, t: float) -> None:
         """Put supports and loads at pseudo-time t; the rest of the state stays."""
@@ -240,9 +242,7 @@ class Problem:
         backend.add_entries(A, self._held, self._held, 1.0)
         A.assemble()
 
-    def entries(
-        self, rows: NDArray[np.int32], columns: NDArray[np.int32], blocks: NDArray[np.float64]
-    ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]:
+    def entries(self, rows: NDArray[np.int32], columns: NDArray[np.int32], blocks: NDArray[np.float64]) -> Block:
         """Entries of dense blocks, one for each row of (rows, columns), leaving out held dofs."""
         I = np.repeat(rows, columns.shape[1], axis=1).ravel()
         J = np.tile(columns, (1, rows.shape[1])).ravel()

@@ -7,6 +7,7 @@ moments of an element formulation converge with twice the degree, the moment fie
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,16 +32,7 @@ class Sections:
 
     def __init__(self, kinematics: Kinematics, degree: int) -> None:
         self._kin = kinematics
-        ξ = np.sort(reference.lagrange_nodes(degree))
-        x, w = reference.quadrature_points(2 * degree), reference.quadrature_weights(2 * degree)
-        points = np.outer(ξ, x).ravel()
-        slopes = reference.lagrange_slopes(degree, points).reshape(len(ξ), len(x), -1)
-        values = reference.discontinuous_basis(degree - 1, points).reshape(len(ξ), len(x), -1)
-        basis = reference.lagrange_basis(degree, points).reshape(len(ξ), len(x), -1)
-        # ∫ φ_a and ∫ φ_a′ ψ_b from the start of the element to each of its nodes.
-        self._means = np.einsum("i,q,iqa->ia", ξ, w, basis)
-        self._integrals = np.einsum("i,q,iqa,iqb->iab", ξ, w, slopes, values)
-        self._shares = reference.node_weights(degree)
+        self._means, self._integrals, self._shares = _tables(degree)
 
     def moments(
         self,
@@ -74,6 +66,19 @@ class Sections:
             put[:, 1:] -= self._shares[1] * couples[:, :-1, 1]
         before = np.cumsum(carried[:, :, -1], axis=1) - carried[:, :, -1]
         return -(np.cumsum(put, axis=1) + before)[:, :, None] - carried
+
+
+@cache
+def _tables(degree: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """∫ φ_a and ∫ φ_a′ ψ_b from the start of the element to each of its nodes, and their Gauss-Lobatto weights."""
+    ξ = np.sort(reference.lagrange_nodes(degree))
+    x, w = reference.quadrature_points(2 * degree), reference.quadrature_weights(2 * degree)
+    points = np.outer(ξ, x).ravel()
+    slopes = reference.lagrange_slopes(degree, points).reshape(len(ξ), len(x), -1)
+    values = reference.discontinuous_basis(degree - 1, points).reshape(len(ξ), len(x), -1)
+    basis = reference.lagrange_basis(degree, points).reshape(len(ξ), len(x), -1)
+    means = np.einsum("i,q,iqa->ia", ξ, w, basis)
+    return means, np.einsum("i,q,iqa,iqb->iab", ξ, w, slopes, values), reference.node_weights(degree)
 
 
 def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import basix
@@ -49,21 +50,17 @@ def node_weights(degree: int) -> NDArray[np.float64]:
 
 def lagrange_nodes(degree: int) -> NDArray[np.float64]:
     """Position of the P_k nodes on [0, 1] in DOLFINx's order: both ends, then the interior."""
-    element = basix.create_element(basix.ElementFamily.P, CELL, degree, basix.LagrangeVariant.gll_warped)
-    return np.asarray(element.points[:, 0])
+    return np.asarray(_lagrange(degree).points[:, 0])
 
 
 def discontinuous_basis(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Values of the discontinuous P_k basis at `points` of [0, 1], shape (points, k + 1)."""
-    variant = basix.LagrangeVariant.gll_warped if degree > 0 else basix.LagrangeVariant.unset
-    element = basix.create_element(basix.ElementFamily.P, CELL, degree, variant, True)
-    return np.asarray(element.tabulate(0, points[:, None])[0, :, :, 0])
+    return np.asarray(_discontinuous(degree).tabulate(0, points[:, None])[0, :, :, 0])
 
 
 def discontinuous_nodes(degree: int) -> NDArray[np.float64]:
     """Position of the nodes of that basis on [0, 1]."""
-    variant = basix.LagrangeVariant.gll_warped if degree > 0 else basix.LagrangeVariant.unset
-    return np.asarray(basix.create_element(basix.ElementFamily.P, CELL, degree, variant, True).points[:, 0])
+    return np.asarray(_discontinuous(degree).points[:, 0])
 
 
 def quadrature_points(degree: int) -> NDArray[np.float64]:
@@ -80,11 +77,22 @@ def quadrature_weights(degree: int) -> NDArray[np.float64]:
 
 def lagrange_slopes(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Derivatives of the P_k basis at `points` of [0, 1], shape (points, k + 1)."""
-    element = basix.create_element(basix.ElementFamily.P, CELL, degree, basix.LagrangeVariant.gll_warped)
-    return np.asarray(element.tabulate(1, points[:, None])[1, :, :, 0])
+    return np.asarray(_lagrange(degree).tabulate(1, points[:, None])[1, :, :, 0])
 
 
 def lagrange_basis(degree: int, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Values of the P_k basis at `points` of [0, 1], shape (points, k + 1)."""
-    element = basix.create_element(basix.ElementFamily.P, CELL, degree, basix.LagrangeVariant.gll_warped)
-    return np.asarray(element.tabulate(0, points[:, None])[0, :, :, 0])
+    return np.asarray(_lagrange(degree).tabulate(0, points[:, None])[0, :, :, 0])
+
+
+@cache
+def _lagrange(degree: int) -> Any:
+    """P_k with Gauss-Lobatto nodes; Basix takes longer to make an element than to tabulate it."""
+    return basix.create_element(basix.ElementFamily.P, CELL, degree, basix.LagrangeVariant.gll_warped)
+
+
+@cache
+def _discontinuous(degree: int) -> Any:
+    """The same with jumps between elements."""
+    variant = basix.LagrangeVariant.gll_warped if degree > 0 else basix.LagrangeVariant.unset
+    return basix.create_element(basix.ElementFamily.P, CELL, degree, variant, True)

@@ -64,10 +64,12 @@ class SpatialRods:
 
     def turn(self, q: Array, increment: Array) -> Array:
         """Along the great circle, cos |δp| p + sin |δp| δp/|δp|, which is exp(½ θ) p; unit to round-off, (n, 4)."""
-        half = 0.5 * self.angles(increment)
-        ratio = np.divide(np.sin(half), half, out=np.ones_like(half), where=half > 0.0)
-        turned = np.cos(half)[:, None] * q + ratio[:, None] * increment
-        return turned / np.sqrt(np.einsum("ni,ni->n", turned, turned))[:, None]
+        # sin x/x → 1 as x → 0: the tiny number only keeps 0/0 out.
+        half = 0.5 * self.angles(increment) + 1e-300
+        turned = np.cos(half)[:, None] * q
+        turned += (np.sin(half) / half)[:, None] * increment
+        turned /= np.sqrt(np.einsum("ni,ni->n", turned, turned))[:, None]
+        return turned
 
     def compose(self, spins: list[Array]) -> Array:
         """Rotation unknown of rotation vectors applied one after the other, in space, shape (4,)."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -132,14 +133,14 @@ class UniformCurvature:
         """
         return np.tile(np.array(self.kappa), (*np.shape(s), 1))
 
-    @property
+    @cached_property
     def _axis(self) -> tuple[float, Array]:
         """|κ| and κ/|κ|; any axis where κ vanishes."""
         κ = np.array(self.kappa)
         w = float(np.linalg.norm(κ))
         return w, κ / w if w > 0.0 else np.eye(3)[0]
 
-    @property
+    @cached_property
     def _frame(self) -> Array:
         """R(0)."""
         return np.stack([self.direction, self.d2, np.cross(self.direction, self.d2)], axis=-1)

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import dolfinrod as dr
+from dolfinrod.continuum.precompile import compiled
 from tests.scenes import GENERAL, SKEW, cantilever, tip_loaded
 
 ROOT = Path(__file__).parents[2]
@@ -121,3 +122,8 @@ def test_rigid_sections_change_values_not_unknowns():
     rigid = dr.Section(GJ=0.7, EI=(1.0, 2.0), rigid={"shear", "extension"})
     a, b = (dr.solve(tip_loaded(section, 1.0), elements=3, degree=2).formulation for section in (GENERAL, rigid))
     assert a == b
+
+
+def test_forms_of_a_degree_are_made_ahead():
+    words = list(compiled((1,)))
+    assert [sentence.partition(":")[0] for sentence in words] == ["planar, degree 1", "spatial, degree 1"]

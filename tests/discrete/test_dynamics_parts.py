@@ -1,4 +1,4 @@
-"""Parts of the motion in time: the quick element, its damping, several rods, scenes that modes are asked of."""
+"""Parts of the motion in time: damping, several rods, scenes that modes are asked of."""
 
 from __future__ import annotations
 
@@ -6,35 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import discrete
-from discrete.corotation import ChordElement
 from discrete.damping import Damping
-from discrete.endforces import QuickElement
 from dolfinrod.result import Result
 from dolfinrod.scene import Clamp, Dynamic, FollowerForce, PointForce, Rod, Scene, Section, Static
 from tests.discrete.laws import N, moved, some_elements, some_state
-from tests.scenes import FLAT, SKEW, largest
+from tests.scenes import FLAT, SKEW
 
 HEAVY = Section(EA=900.0, GA=400.0, GJ=0.7, EI=(2.0, 1.0), rhoA=1.0, rhoI=(0.003, 0.002, 0.001))
-
-
-@settings(max_examples=20)
-@given(st.integers(0, 2**32 - 1), st.floats(1e-8, 1.5), st.booleans())
-def test_the_quick_element_is_the_element(seed, bend, paper):
-    rng = np.random.default_rng(seed)
-    elements = some_elements(rng)
-    e, E, F_n = some_state(rng)
-    d = np.zeros((N, 13))
-    d[:, 10:13] = bend * rng.normal(size=(N, 3))
-    state = moved(e, E, F_n, d)
-    quick, known = (law(elements, paper_strain=paper) for law in (QuickElement, ChordElement))
-    force, energy = known.measure(*state)
-    assert quick.measure(*state)[0] == pytest.approx(force, abs=1e-12 * largest(force))
-    assert quick.measure(*state)[1] == pytest.approx(energy, rel=1e-12)
-    assert quick.respond(*state)[1] == pytest.approx(known.respond(*state)[1])
 
 
 def test_the_tangent_of_a_damped_step_agrees_with_central_differences():

@@ -6,10 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from discrete.element import stiffness
-from discrete.frames import direction_cosines, transformation
-from discrete.rotation import exp
+from discrete.endforces import deformed
+from discrete.frames import direction_cosines, element_frame, transformation
+from discrete.rotation import exp, log
 from tests.discrete.laws import ENERGETIC, LAWS, N, moved, some_elements, some_state
 
 every_law = pytest.mark.parametrize("law", LAWS, ids="-".join)
@@ -128,3 +131,17 @@ def test_straight_element_has_the_papers_stiffness(law):
     k_star = elements.k_star + stiffness(EA=0.0, GI_p=0.0, EI_v=0.0, EI_w=0.0, l=elements.l, F_n=F_n)
     t = transformation(direction_cosines(Q))
     assert eliminated == pytest.approx(np.swapaxes(t, 1, 2) @ k_star @ t, abs=1e-12)
+
+
+@settings(max_examples=20)
+@given(st.integers(0, 2**32 - 1), st.floats(1e-8, 1.5))
+def test_rows_hold_what_frames_and_rotation_vectors_are(seed, bend):
+    """Component by component as element by element."""
+    rng = np.random.default_rng(seed)
+    d = np.zeros((N, 13))
+    d[:, 10:13] = bend * rng.normal(size=(N, 3))
+    e, E, _ = moved(*some_state(rng), d)
+    by_rows, frame = deformed(e.T.copy(), E.transpose(2, 3, 1, 0).copy()), element_frame(e, E)
+    assert by_rows.axes.transpose(2, 0, 1) == pytest.approx(frame.axes, abs=1e-14)
+    assert by_rows.turned.transpose(3, 2, 0, 1) == pytest.approx(frame.turned, abs=1e-14)
+    assert by_rows.θ.transpose(2, 1, 0) == pytest.approx(log(frame.turned), abs=1e-13)

@@ -9,6 +9,7 @@ import numpy as np
 
 import discrete.corotation
 import discrete.element
+import discrete.endforces
 import discrete.frames
 import discrete.increments
 import discrete.loads
@@ -87,11 +88,16 @@ def _moment_of_i_not_turned_over(right: Any, mesh: Any, R: Array, forces: Any, p
     return right(mesh, R, wrong, path)
 
 
-def _without_axial_force(right: Any, self: Any, frame: Any, spin: Any, f: Array, *rest: Any) -> Array:
+def _without_axial_force(right: Any, deformed: Any, μ: Array, m: Array, f: Array, *rest: Any) -> Array:
     """Tangent of the chord element without the turning of F_n."""
     sideways = f.copy()
-    sideways[:, 1, 0] = 0.0
-    return right(self, frame, spin, sideways, *rest)
+    sideways[1, 0] = 0.0
+    return right(deformed, μ, m, sideways, *rest)
+
+
+def _transposed_axes(right: Any, *args: Array) -> tuple[Array, Array]:
+    length, T = right(*args)
+    return length, np.swapaxes(T, 0, 1)
 
 
 def _stretch_without_turning(right: Any, self: Any, force: Array, tangent: Array, e: Array, F_n: Array) -> None:
@@ -117,9 +123,6 @@ def _first_axes(right: Any, self: Increments, _x: Array, _R: Array) -> Array:
     return right(self, self.mesh.x, self.mesh.R)
 
 
-_transposed: Plant = replaced(
-    discrete.corotation, "element_frame", lambda f, e, E: replace(f(e, E), axes=swapped(f(e, E).axes))
-)
 FOUR_TIMES_EA = replaced(discrete.mesh, "_axial_stiffness", lambda f, rod: 4.0 * f(rod))
 COUPLING: Plant = _coupling_of_one_sign
 STRAIGHT = replaced(discrete.mesh, "_elements", _straight)
@@ -128,9 +131,9 @@ FOLLOWING_MOMENT = replaced(discrete.solver, "Loads", _following)
 FIRST_AXES = replaced(Increments, "_axes", _first_axes)
 NO_STRING_LETTER = replaced(PaperElement, "__init__", _no_string)
 NO_STRING_INCREMENTS = replaced(discrete.increments, "_string", lambda f, stress: 0.0 * f(stress))
-NO_STRING_CHORD = replaced(ChordElement, "_tangent", _without_axial_force)
+NO_STRING_CHORD = replaced(discrete.corotation, "end_tangents", _without_axial_force)
 NO_STRING_NODE = replaced(EnergyNodeElement, "_stretch", _stretch_without_turning)
-TRANSPOSED_CHORD = _transposed
+TRANSPOSED_CHORD = replaced(discrete.endforces, "_axes", _transposed_axes)
 TRANSPOSED_NODE = replaced(discrete.nodeframe, "direction_cosines", lambda _f, triad: triad)
 TRANSPOSED_INCREMENTS = replaced(discrete.increments, "direction_cosines", lambda _f, triad: triad)
 TRANSPOSED_INERTIA = replaced(discrete.frames, "inertia", lambda f, J, A: f(J, swapped(A)))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import singledispatch
 from typing import Any
 
-from verification.bundles import BundleRanks, BundleStudy
 from verification.checks import Check
+from verification.cold import Cold
 from verification.contact import ContactStudy
 from verification.contactmaps import ContactCell
 from verification.crosscheck import BAND, CrossCheck
@@ -15,7 +15,6 @@ from verification.explicitlimit import ExplicitLimit
 from verification.frequency import FrequencyStudy
 from verification.groovebench import LIMIT, GrooveSweep
 from verification.grooveprofile import AGREES, SideBySide
-from verification.groovescenarioclaims import Gathered
 from verification.hard import HardRow, Share
 from verification.hardcontact import MOST_ITERATIONS, ContactRow
 from verification.hardmotion import MotionRow
@@ -24,7 +23,6 @@ from verification.maps import Cell
 from verification.motion import MotionStudy
 from verification.onestep import OneStep
 from verification.pace import PaperFibre
-from verification.ranks import RankRow
 from verification.report.tables import figure, power, scientific
 from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
@@ -44,7 +42,10 @@ def sentence(row: Any) -> str:
     Returns:
         The sentence without full stop.
     """
-    raise TypeError(f"{type(row).__name__} is no row of the report")
+    words = getattr(row, "words", None)
+    if not isinstance(words, str):
+        raise TypeError(f"{type(row).__name__} is no row of the report")
+    return words
 
 
 @sentence.register
@@ -54,6 +55,11 @@ def _(row: Check) -> str:
     words = "least error" if row.quantity == "digits" else row.quantity
     asked = f"at most {scientific(row.limit, 0)}" + (", or the order of theory" if row.quantity == "digits" else "")
     return f"{row.title}: {row.model} {words} {scientific(row.found)} ({row.mesh}), {asked}"
+
+
+@sentence.register
+def _(row: Cold) -> str:
+    return f"A process, {row.words}: {row.failure}"
 
 
 @sentence.register
@@ -172,11 +178,6 @@ def _(row: DriftStudy) -> str:
     changes = f"linear momentum by {scientific(max(row.linear))}, angular by {scientific(max(row.angular))}"
     energy = f"energy with order {power(row.order.observed)} of {row.order.theory}"
     return f"Free flight: {row.model} changes {changes}, {energy}; momenta at most {scientific(KEPT, 0)}"
-
-
-@sentence.register
-def _(row: BundleStudy | BundleRanks | Gathered | RankRow) -> str:
-    return row.words
 
 
 @sentence.register

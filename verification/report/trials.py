@@ -13,6 +13,7 @@ from verification.report import (
     groovescenario,
     groovescenariopaper,
     hardcontact,
+    limit,
     meetings,
     motion,
     ranks,
@@ -43,6 +44,7 @@ TITLES = {
     **motion.TITLES,
     "ranks": ranks.TITLE,
     "bundles": bundles.TITLE,
+    **limit.TITLES,
     "tops": rigid.TITLE,
     "contact": contact.TITLE,
     "groove": groove.TITLE,
@@ -86,6 +88,7 @@ WORDS = {
     **motion.WORDS,
     "ranks": ranks.WORDS,
     "bundles": bundles.WORDS,
+    **limit.WORDS,
     "tops": rigid.WORDS,
     "contact": contact.WORDS,
     "groove": groove.WORDS,
@@ -113,6 +116,7 @@ def contents(report: Report) -> dict[str, str]:
     parts |= motion.contents(report)
     parts["ranks"] = ranks.ranks(report.ranks) if report.ranks else ""
     parts["bundles"] = bundles.bundles(report.bundles) if report.bundles else ""
+    parts |= limit.contents(report)
     parts["tops"] = rigid.tops(report.tops) if report.tops else ""
     parts["contact"] = contact.contact_cases(report.touching) if report.touching else ""
     parts["groove"] = groove.groove(report.grooves, report.beside) if report.grooves or report.beside else ""
@@ -139,6 +143,7 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
         *motion.outcomes(report),
         ("ranks", report.ranks, "kinds of scenes with the same answer on one rank and on two"),
         ("bundles", report.bundles, "bundles moved to their ends, on ranks to the same"),
+        ("growth", limit.growths(report), "models of which an iteration grows no faster than the elements"),
         ("tops", report.tops, "rigid tops: orders of theory, momentum kept, energy lost or swinging as it should"),
         ("contact", report.touching, "ways to take a rod on a surface: answers within their limits, orders as stated"),
         ("groove", (*report.grooves, *report.beside), "ways into the groove on which the models agree"),
