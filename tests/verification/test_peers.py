@@ -10,19 +10,27 @@ import numpy as np
 import pytest
 
 from verification.ledger import decode, encode
-from verification.peers import environment, others, ours, race, talk
+from verification.peers import environment, onestep, others, ours, race, rodothers, rodours, rods, talk
 from verification.peers.contest import TARGET, Attempt, Contender, Measured, Taker
-from verification.peers.conversation import Refused, ask
+from verification.peers.conversation import Refused, ask, ask_all
 from verification.peers.environment import Environment, installed
 from verification.peers.reference import PATHS
 from verification.peers.swing import SECTIONS, SWING, solution
 from verification.references.moving import moving
-from verification.report import peers
+from verification.report import peers, swing
 
 pytestmark = pytest.mark.serial
 
 OTHER = others.OTHERS[0]
-QUESTION = {"module": "a", "package": "b", "problem": asdict(SWING), "settings": {}, "repeats": 1}
+QUESTION = {
+    "module": "a",
+    "package": "b",
+    "pose": "swing",
+    "problem": asdict(SWING),
+    "settings": [{}],
+    "repeats": 1,
+    "budget": 1.0,
+}
 SECONDS = {"import": 0.5, "setup": 0.1, "first": 0.4, "solve": 0.25}
 
 
@@ -43,7 +51,7 @@ def interpreter(tmp_path):
 
 def says(answer: dict) -> str:
     """A script that answers that."""
-    return f"cat >/dev/null; cat <<'END'\n{json.dumps(answer)}\nEND"
+    return f"cat >/dev/null; echo '{json.dumps(answer)}'"
 
 
 def answer(tip: np.ndarray) -> dict:
@@ -105,15 +113,20 @@ def test_solvers_run_on_one_thread_and_leave_nothing_behind(interpreter, tmp_pat
     assert not (tmp_path / "LOG").exists()
 
 
+def at_once() -> int:
+    """How many of the others are asked for whole loads, and by a quick report."""
+    return sum(not other.relaxes for other in rodothers.ROD_OTHERS)
+
+
 def test_without_them_the_race_is_run_and_says_so(tmp_path, monkeypatch):
     assert installed(tmp_path) is None
     monkeypatch.setattr(race, "installed", lambda: None)
     units = list(race.units((race.PEERS,), quick=True))
     found = [unit.work() for unit in units if "absent" in unit.parameters]
-    assert len(found) == len(others.OTHERS)
+    assert len(found) == len(others.OTHERS) + (1 + len(rods.QUICK)) * at_once()
     assert all(c.absent == environment.ABSENT and not c.attempts for c in found)
     page = peers.contents((contender(True, (1e-4, 2.0)), *found))
-    assert page.count("not here") == len(found)
+    assert f"Nobody else took part: {environment.ABSENT}" in page
     assert f"Nobody else did: {environment.ABSENT}" in page
 
 
@@ -124,8 +137,10 @@ def test_what_was_absent_is_asked_again_once_it_is_there(monkeypatch, interprete
     monkeypatch.setattr(race, "installed", lambda: None)
     absent = parameters()
     monkeypatch.setattr(race, "installed", lambda: interpreter("exit"))
-    assert len(absent - parameters()) == len(others.OTHERS)
-    assert len(absent) == len(ours.OURS) + len(others.OTHERS)
+    theirs = len(others.OTHERS) + len(rods.RODS) * len(rodothers.ROD_OTHERS) + at_once()
+    mine = sum(own.poses(rod) for own in rodours.ROD_OURS for rod in rods.RODS)
+    assert len(absent - parameters()) == theirs
+    assert len(absent) == theirs + mine + len(onestep.ONCE_OURS) + len(ours.OURS)
 
 
 def test_the_quickest_of_those_exact_enough_counts_and_nothing_between():
@@ -143,8 +158,9 @@ def test_ratios_and_the_aim_are_told():
     assert "quickest of the others is Theirs with 0.8 s" in page
     assert "4.0 ×" in page
     assert "not reached" in page
+    assert "Among those who move in space, ours are ahead on P5 to 0.001 (4.0 ×)" in peers.verdict(found)
     assert peers.contents(()) == ""
-    assert "missed" in peers.summary((contender(True, (5e-4, 0.4)),))
+    assert "missed" in swing.summary((contender(True, (5e-4, 0.4)),))
 
 
 def test_contenders_survive_the_disk():
@@ -165,13 +181,59 @@ def test_the_other_end_times_and_answers(monkeypatch):
     adapter.POSED = {"swing": build}
     monkeypatch.setitem(sys.modules, "stand_in", adapter)
     question = QUESTION | {"module": "stand_in", "package": "numpy", "repeats": 3}
-    found = talk.answer(question)
+    (found,) = talk.answers(question)
     assert found["tip"] == [[9.81, 0.0, 0.0]]
     assert found["version"] == np.__version__
     assert set(found["seconds"]) == set(SECONDS)
     assert made == [{}] * 3
     with pytest.raises(LookupError, match="does not pose other"):
-        talk.answer(question | {"problem": {"name": "other"}})
+        list(talk.answers(question | {"pose": "other"}))
+
+
+def test_load_steps_are_the_fewest_that_find_the_equilibrium(monkeypatch):
+    """One step fails, two find another equilibrium, three and four the one sought."""
+    made = []
+
+    def build(problem, settings):
+        steps = settings["steps"]
+        made.append(steps)
+
+        def solve():
+            if steps == 1:
+                raise ArithmeticError("Newton's method failed")
+            return [[0.0, 0.0, problem["y"] if steps > 2 else 5.0]]
+
+        return solve
+
+    adapter = type(sys)("stand_in")
+    adapter.POSED = {"rod": build}
+    monkeypatch.setitem(sys.modules, "stand_in", adapter)
+    setting = {"ladder": [1, 2, 3, 4, 6], "near": [0.0, 0.0, 1.0], "within": 0.1, "problem": {"y": 1.05}}
+    hopeless = setting | {"ladder": [1, 2]}
+    question = QUESTION | {"module": "stand_in", "package": "numpy", "pose": "rod", "settings": [setting, hopeless]}
+    found, refused = talk.answers(question)
+    assert found["steps"] in (3, 4)
+    assert found["tip"] == [[0.0, 0.0, 1.05]]
+    assert made[:4] == [1, 2, 3, 4]
+    assert refused["refused"] == "not in 1, 2 load steps; in the last, the tip ends 4 m from where it should"
+
+
+def test_settings_that_follow_a_death_are_asked_again(interpreter, tmp_path):
+    """The first process answers once and dies, the second answers the rest."""
+    line = json.dumps(answer(solution("stretched")))
+    (tmp_path / "line").write_text(line + "\n")
+    here = tmp_path / "line"
+    script = f"cat >/dev/null; cat {here}; if [ -e {tmp_path}/again ]; then cat {here}; else touch {tmp_path}/again; "
+    python = interpreter(script + "echo Bus error >&2; exit 135; fi").python
+    found = ask_all(python, QUESTION | {"settings": [{}] * 4}, patience=20.0)
+    assert [isinstance(one, Refused) for one in found] == [False, True, False, False]
+    assert "Bus error" in str(found[1])
+
+
+def test_a_refusal_that_ends_the_process_counts_once(interpreter):
+    python = interpreter(says({"refused": "ImportError: none", "ended": True}) + "; exit 1").python
+    found = ask_all(python, QUESTION | {"settings": [{}] * 2}, patience=20.0)
+    assert [str(one) for one in found] == ["ImportError: none"] * 2
 
 
 def test_the_other_end_refuses_in_words_when_it_fails():

@@ -10,10 +10,11 @@ import numpy as np
 from dolfinrod.result import NotConverged
 from verification.peers.conversation import Refused
 
-__all__ = ["AIM", "TARGET", "Attempt", "Contender", "Measured", "Taker", "contest"]
+__all__ = ["AIM", "TARGET", "TARGETS", "Attempt", "Contender", "Measured", "Taker", "contest"]
 
 # Error of the tip, over the length, at which seconds are compared, and what ours should take for it [s].
 TARGET, AIM = 1e-3, 0.3
+TARGETS = (TARGET, 1e-5, 1e-8)
 
 
 @dataclass(frozen=True)
@@ -23,10 +24,10 @@ class Measured:
     Args:
         error: Largest distance of the tip from the solution at the times of the problem, over the length.
         final: The same at the last time alone, where an error may pass through zero.
-        solve: Of the quickest solve, per simulated second [s].
+        solve: Of the quickest solve; of a motion, per simulated second [s].
         setup: To pose the problem [s].
         once: What is spent once a process: imports, or the making of compiled code [s].
-        steps: In time, those of failed attempts left out; None where the solver does not say.
+        steps: Of the load, or in time, those of failed attempts left out; None where the solver does not say.
         version: Of the solver.
     """
 
@@ -67,6 +68,8 @@ class Taker:
         method: How time is stepped.
         element: How the rod is divided.
         assumes: What the rod cannot do: "sheared" does all, "stretched" does not shear, "rigid" does neither.
+        space: Whether it moves in space, not only in a plane.
+        exact: Whether its elements are geometrically exact.
     """
 
     name: str
@@ -75,6 +78,8 @@ class Taker:
     method: str
     element: str
     assumes: str
+    space: bool = True
+    exact: bool = False
 
 
 @dataclass(frozen=True)
@@ -86,12 +91,14 @@ class Contender:
         taker: Who.
         attempts: In the order of the sweep; empty where it could not take part.
         absent: Why it could not; "" where it did.
+        cold: Seconds of a whole process that solves it once, at the quickest setting to `TARGET`; None: not measured.
     """
 
     problem: str
     taker: Taker
     attempts: tuple[Attempt, ...]
     absent: str = ""
+    cold: float | None = None
 
     def quickest(self, target: float = TARGET, *, final: bool = False) -> Attempt | None:
         """The measured attempt that is exact enough soonest, never an interpolation.

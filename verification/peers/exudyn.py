@@ -1,7 +1,8 @@
-"""EXUDYN: cable elements of the absolute nodal coordinate formulation in space, implicit time integration.
+"""EXUDYN: cable elements of the absolute nodal coordinate formulation in motion, implicit time integration.
 
-ObjectANCFCable (two nodes, position and slope, no shear, no twist, no rotary inertia), by the implicit trapezoidal rule
-or the generalised-α method; EXUDYN's manual, "ObjectANCFCable" and "Implicit trapezoidal rule solver".
+ObjectANCFCable and ObjectANCFCable2D (two nodes, position and slope, no shear, no twist, no rotary inertia), by the
+implicit trapezoidal rule or the generalised-α method; EXUDYN's manual, "ObjectANCFCable" and "Implicit trapezoidal
+rule solver".
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from typing import Any
 
 import exudyn
 from exudyn.beams import GenerateBeamElementsAlongLine
-from exudyn.itemInterface import ObjectANCFCable, SensorNode
+from exudyn.itemInterface import ObjectANCFCable, ObjectANCFCable2D, SensorNode
 
 __all__ = ["POSED"]
 
@@ -19,13 +20,19 @@ RULES = {
     "trapezoidal": exudyn.DynamicSolverType.TrapezoidalIndex2,
     "generalised alpha": exudyn.DynamicSolverType.GeneralizedAlpha,
 }
+CABLES = {
+    2: (ObjectANCFCable2D, [True, True, False, False]),
+    3: (ObjectANCFCable, [True, True, True, False, False, False]),
+}
 
 
 def swing(problem: dict[str, Any], settings: dict[str, Any]) -> Callable[[], list[list[float]]]:
     """A rod pinned at one end, released from the horizontal."""
     system = exudyn.SystemContainer()
     mbs = system.AddSystem()
-    cable = ObjectANCFCable(massPerLength=problem["rhoA"], bendingStiffness=problem["EI"], axialStiffness=problem["EA"])
+    # In the plane, a node has two positions and two slopes.
+    kind, held = CABLES[settings["dimensions"]]
+    cable = kind(massPerLength=problem["rhoA"], bendingStiffness=problem["EI"], axialStiffness=problem["EA"])
     made = GenerateBeamElementsAlongLine(
         mbs,
         [0.0, 0.0, 0.0],
@@ -33,7 +40,7 @@ def swing(problem: dict[str, Any], settings: dict[str, Any]) -> Callable[[], lis
         settings["elements"],
         beamTemplate=cable,
         gravity=[0.0, -problem["g"], 0.0],
-        groundConstraintsStart=[True, True, True, False, False, False],
+        groundConstraintsStart=held,
     )
     times = problem["times"]
     sensor = mbs.AddSensor(

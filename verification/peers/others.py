@@ -14,6 +14,9 @@ from verification.peers.swing import SWING, solution
 
 __all__ = ["OTHERS", "Other", "others_measured"]
 
+# Seconds after which a motion is not repeated any more.
+BUDGET = 2.0
+
 
 @dataclass(frozen=True)
 class Other:
@@ -32,17 +35,19 @@ class Other:
     module: str
     package: str
     sweep: tuple[tuple[int, int], ...]
-    options: Mapping[str, str] = field(default_factory=dict)
+    options: Mapping[str, str | int] = field(default_factory=dict)
     repeats: int = 2
 
 
-def exudyn(rule: str, method: str) -> Other:
-    """EXUDYN by one of its implicit integrators."""
-    taker = Taker(f"EXUDYN, {rule}", False, True, method, "3-D cable, absolute nodal coordinates, 2 nodes", "stretched")
+def exudyn(rule: str, method: str, dimensions: int) -> Other:
+    """EXUDYN's cable by one of its implicit integrators, in the plane or in space."""
+    words = f"{dimensions}-D cable, absolute nodal coordinates, 2 nodes"
+    taker = Taker(f"EXUDYN {dimensions}D, {rule}", False, True, method, words, "stretched", dimensions == 3)
     sweep = ((4, 200), (3, 200), (4, 100), (6, 200), (4, 400), (8, 400), (8, 800))
-    return Other(taker, "exudyn", "exudyn", sweep, {"rule": rule})
+    return Other(taker, "exudyn", "exudyn", sweep, {"rule": rule, "dimensions": dimensions})
 
 
+TRAPEZOIDAL = "implicit trapezoidal rule, second order"
 OPENSEES = Other(
     Taker(
         "OpenSees",
@@ -55,7 +60,7 @@ OPENSEES = Other(
     "opensees",
     "openseespy",
     ((8, 400), (16, 400), (16, 1000), (24, 2000)),
-    {"mass": "consistent"},
+    {"mass": "consistent", "dimensions": 3},
     # Half a minute each, and nothing to warm up.
     repeats=1,
 )
@@ -79,8 +84,9 @@ MUJOCO = Other(
     ((12, 1000), (8, 500), (10, 500), (12, 500), (16, 1000), (24, 2000)),
 )
 OTHERS = (
-    exudyn("trapezoidal", "implicit trapezoidal rule, second order"),
-    exudyn("generalised alpha", "generalised-α, spectral radius 0.9, second order"),
+    exudyn("trapezoidal", TRAPEZOIDAL, 3),
+    exudyn("generalised alpha", "generalised-α, spectral radius 0.9, second order", 3),
+    exudyn("trapezoidal", TRAPEZOIDAL, 2),
     OPENSEES,
     PYELASTICA,
     MUJOCO,
@@ -123,9 +129,11 @@ def measured(other: Other, environment: Environment, elements: int, steps: int) 
     question = {
         "module": f"verification.peers.{other.module}",
         "package": other.package,
+        "pose": SWING.name,
         "problem": asdict(SWING),
-        "settings": {"elements": elements, "step": 1.0 / steps, **other.options},
+        "settings": [{"elements": elements, "step": 1.0 / steps, **other.options}],
         "repeats": other.repeats,
+        "budget": BUDGET,
     }
     answer = ask(environment.python, question)
     away = np.linalg.norm(answer.tip - solution(other.taker.assumes), axis=1) / SWING.length

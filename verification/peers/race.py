@@ -1,4 +1,4 @@
-"""The race as units of work: everybody on the swinging rod, in one run."""
+"""The race as units of work: everybody on rods in equilibrium and on the swinging rod, in one run."""
 
 from __future__ import annotations
 
@@ -7,8 +7,12 @@ from functools import partial
 
 from verification.ledger import Unit
 from verification.peers.environment import installed
+from verification.peers.onestep import ONCE, ONCE_OURS, others_at_once, ours_at_once
 from verification.peers.others import OTHERS, others_measured
 from verification.peers.ours import OURS, ours_measured
+from verification.peers.rodothers import ROD_OTHERS, rod_others_measured
+from verification.peers.rodours import ROD_OURS, rod_ours_measured
+from verification.peers.rods import RODS
 from verification.peers.swing import SWING
 
 __all__ = ["PEERS", "listing", "units"]
@@ -21,7 +25,7 @@ ABSENT = "absent"
 def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     """Name and title, where asked for."""
     if PEERS in asked:
-        yield PEERS, "other people's solvers and our models on a swinging rod (./run peers installs them)"
+        yield PEERS, "other people's solvers and our models on the same rods (./run peers installs them)"
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -29,13 +33,53 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
 
     Args:
         asked: Names; others than `PEERS` are passed over.
-        quick: One setting of each.
+        quick: Fewer problems, settings and repetitions.
 
     Yields:
-        One unit a solver; what was absent is asked again once it is there.
+        One unit a solver and problem; what was absent is asked again once it is there.
     """
-    if PEERS not in asked:
-        return
+    if PEERS in asked:
+        yield from _rods(quick)
+        yield from _once()
+        yield from _swing(quick)
+
+
+def _rods(quick: bool) -> Iterator[Unit]:
+    """Rods in equilibrium."""
+    environment = installed()
+    stamp = ABSENT if environment is None else environment.stamp
+    extent = "quick" if quick else "full"
+    for problem in RODS:
+        if quick and not problem.quick:
+            continue
+        for own in ROD_OURS:
+            if own.poses(problem):
+                words = f"{problem.name}: {own.taker.name}, {own.taker.assumes}"
+                parameters = (problem.name, own.taker.name, own.taker.assumes, extent)
+                yield Unit("peer", words, parameters, partial(rod_ours_measured, own, problem, quick=quick))
+        # Those that come to rest take seconds, and compile for a minute before.
+        for other in (other for other in ROD_OTHERS if not (quick and other.relaxes)):
+            words = f"{problem.name}: {other.taker.name}"
+            parameters = (problem.name, other.taker.name, stamp, extent)
+            yield Unit(
+                "peer", words, parameters, partial(rod_others_measured, other, problem, environment, quick=quick)
+            )
+
+
+def _once() -> Iterator[Unit]:
+    """Whole loads at once."""
+    environment = installed()
+    stamp = ABSENT if environment is None else environment.stamp
+    for taker, model in ONCE_OURS:
+        words = f"Tip loads in one step: {taker.name}, {taker.assumes}"
+        yield Unit("peer", words, (ONCE, taker.name, taker.assumes), partial(ours_at_once, taker, model))
+    for other in (other for other in ROD_OTHERS if not other.relaxes):
+        words = f"Tip loads in one step: {other.taker.name}"
+        yield Unit("peer", words, (ONCE, other.taker.name, stamp), partial(others_at_once, other, environment))
+
+
+def _swing(quick: bool) -> Iterator[Unit]:
+    """The swinging rod."""
     environment = installed()
     stamp = ABSENT if environment is None else environment.stamp
     extent = "quick" if quick else "full"

@@ -1,37 +1,39 @@
-"""The section on other people's solvers, measured in the same run: ratios, errors over seconds, every setting tried."""
+"""The section on other people's solvers, measured in the same run: who is ahead where, then problem by problem."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from html import escape
-from itertools import cycle
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
-from verification.peers.contest import AIM, TARGET
-from verification.report.canvas import Curve, log_log
-from verification.report.diagrams import LETTERS
-from verification.report.tables import Column, Group, Mark, Row, scientific, table
+from verification.peers.onestep import ONCE, largest
+from verification.peers.rods import RODS
+from verification.peers.standing import Aim, Standing, aims, named, standings
+from verification.peers.swing import SWING
+from verification.report import race, swing
+from verification.report.tables import Column, Group, Mark, Row, table
 
 if TYPE_CHECKING:
-    from verification.peers.contest import Attempt, Contender, Measured
+    from verification.peers.contest import Contender
 
-__all__ = ["TITLES", "WORDS", "contents", "summary"]
+__all__ = ["TITLES", "WORDS", "contents", "summary", "verdict"]
 
 TITLES = {"peers": "Beside other people's solvers, in this run"}
 WORDS = {
-    "peers": "A rod pinned at one end falls from the horizontal and swings for a second (P5: L = ρA = EI = 1, "
-    "EA = 1e4, g = 9.81), in three dimensions everywhere. Each solver is held against the solution of its own "
-    "assumptions: the rod shears and stretches (sheared), only stretches (stretched), or neither (rigid). Errors are "
-    "the largest distance of the tip at twenty times, over the length; at 1 s alone they may be small by chance. "
-    "Seconds are those of the steps, one thread, in a process that is warm, the quickest repetition; nothing is "
-    "interpolated. To see: the farther left and down, the better.",
+    "peers": "All solve the same rods: a cantilever under a tip force (P1), rolled up once and twice (P2a, P2b), "
+    "the 45° bend (P3), a column beyond its Euler load (P4), a rod that swings for a second (P5), a slender fibre in "
+    "SI and without units (P6, P6n). Each is held against the solution of its own assumptions: the rod shears and "
+    "stretches (sheared), only stretches (stretched), or neither (rigid); errors are distances of the tip over the "
+    "length. Seconds are those of the steps, one thread, in a process that is warm, the quickest repetition, in the "
+    "better of the two fewest numbers of load steps that find the equilibrium; nothing is interpolated. Cold: a whole "
+    "process with its imports, compiled code at hand.",
 }
 NUMBER = "number"
-OURS, OTHERS = ("p3", "p4", "p5", "p2", "p1", "chord"), ("paper", "chord", "p1", "p2", "p5")
 
 
 def contents(found: Sequence[Contender]) -> str:
-    """Figure, ratios and every setting.
+    """Verdict, aims, seconds, loads in one step, and a fold for each problem.
 
     Args:
         found: Who took part, ours and others, or could not.
@@ -41,10 +43,20 @@ def contents(found: Sequence[Contender]) -> str:
     """
     if not found:
         return ""
-    figure = f'<div class="panels wide"><figure>{diagram(found)}</figure></div>'
-    parts = (f"<p><b>{escape(summary(found))}</b></p>", figure, ratios(found))
-    every = f"<details><summary>Every setting that was tried</summary>{settings(found)}</details>"
-    return "\n".join((*parts, every))
+    moving = [c for c in found if c.problem == SWING.name]
+    still = {rod.name: [c for c in found if c.problem == rod.name] for rod in RODS}
+    parts = [f"<p><b>{escape(verdict(found))}</b></p>"]
+    parts += [f"<p>{escape(swing.summary(moving))}</p>"] if moving else []
+    parts += [asked(rows)] if (rows := aims(found)) else []
+    for rod in RODS:
+        if still[rod.name]:
+            title = f"{rod.name}: {rod.title}"
+            parts += [f"<h3>{escape(title)}</h3>", race.panel(still[rod.name], title), race.seconds(still[rod.name])]
+            parts.append(f"<details><summary>Every setting</summary>{race.settings(still[rod.name])}</details>")
+    once = [c for c in found if c.problem == ONCE]
+    parts += ["<h3>Tip loads taken in one load step</h3>", at_once(once)] if once else []
+    parts += [f"<h3>P5: {swing.TITLE}</h3>", swing.contents(moving)] if moving else []
+    return "\n".join(parts)
 
 
 def summary(found: Iterable[Contender]) -> str:
@@ -56,129 +68,79 @@ def summary(found: Iterable[Contender]) -> str:
     Returns:
         Plain text.
     """
-    found = tuple(found)
-    mine, theirs = (soonest([c for c in found if c.taker.ours is ours]) for ours in (True, False))
-    if mine is None:
-        return f"None of our models came within {TARGET:g} with the settings tried."
-    ours, seconds = mine
-    words = f"Ours come within {TARGET:g} in {figures(seconds)} s per simulated second ({ours.taker.name}, "
-    words += f"{ours.taker.assumes}); the aim of {AIM:g} s is {'met' if seconds <= AIM else 'missed'}."
-    if theirs is None:
-        absent = {c.absent for c in found if c.absent}
-        return f"{words} Nobody else did: {'; '.join(sorted(absent)) or 'see the settings below'}."
-    other, took = theirs
-    return f"{words} The quickest of the others is {other.taker.name} with {figures(took)} s."
+    return verdict(tuple(found))
 
 
-def soonest(found: Sequence[Contender]) -> tuple[Contender, float] | None:
-    """Who is exact enough first, and after how many seconds a simulated second."""
-    times = [(seconds(best), k) for k, c in enumerate(found) if (best := c.quickest()) is not None]
-    return (found[min(times)[1]], min(times)[0]) if times else None
+def verdict(found: Sequence[Contender]) -> str:
+    """Who is ahead where, from the numbers.
+
+    Args:
+        found: Who took part.
+
+    Returns:
+        Plain text.
+    """
+    rows = [s for s in standings(found) if s.ours is not None or s.theirs is not None]
+    if not rows:
+        absent = sorted({c.absent for c in found if c.absent and not c.taker.ours})
+        return f"Nobody else took part: {'; '.join(absent) or 'see the settings below'}."
+    said = []
+    for where in dict.fromkeys(s.where for s in rows):
+        mine = [phrase(s) for s in rows if s.where == where and s.ahead >= 1.0]
+        theirs = [phrase(s) for s in rows if s.where == where and s.ahead < 1.0]
+        words = "Among those who move in space" if where == "in space" else "Plane elements counted too"
+        said.append(f"{words}, ours are ahead on {listed(mine)}; others are ahead on {listed(theirs)}.")
+    return " ".join(said)
 
 
-def seconds(attempt: Attempt) -> float:
-    """Of its solve a simulated second, infinite where it gave up [s]."""
-    return attempt.found.solve if attempt.found is not None else float("inf")
+def listed(words: Sequence[str]) -> str:
+    """With commas, or nothing."""
+    return ", ".join(words) if words else "nothing"
 
 
-def diagram(found: Sequence[Contender]) -> str:
-    """Errors over seconds; of each solver the settings of which no other is both quicker and more exact."""
-    kinds = {True: cycle(OURS), False: cycle(OTHERS)}
-    curves = []
-    for k, (letter, c) in enumerate(zip(LETTERS, found, strict=False)):
-        points = front([a.found for a in c.attempts if a.found is not None])
-        kind = next(kinds[c.taker.ours])
-        if points:
-            x, y = tuple(p.solve for p in points), tuple(p.error for p in points)
-            curves.append(Curve(kind, x, y, f"{letter}: {c.taker.name}", not c.taker.ours, letter, -(k % 2)))
-    return log_log(
-        curves,
-        x="seconds per simulated second",
-        y="error, dashed: other people's solvers",
-        alt="Swinging rod: error over seconds, ours and other people's solvers",
-    )
+def phrase(s: Standing) -> str:
+    """Such as "P3 to 1e-05 (44 ×)" or "P1 to 0.001 (OpenSees corot 2D, 12 ×)"."""
+    if s.ahead >= 1.0:
+        return f"{named(s.problem)} to {s.target:g} ({'alone' if s.ahead == inf else times(s.ahead)})"
+    name = "" if s.theirs is None else s.theirs[0].taker.name
+    return f"{named(s.problem)} to {s.target:g} ({name}, {times(1.0 / s.ahead) if s.ahead > 0.0 else 'alone'})"
 
 
-def front(points: Sequence[Measured]) -> list[Measured]:
-    """From quick to exact."""
-    kept: list[Measured] = []
-    for p in sorted(points, key=lambda p: (p.solve, p.error)):
-        if 0.0 < p.error < (kept[-1].error if kept else float("inf")):
-            kept.append(p)
-    return kept
+def times(ratio: float) -> str:
+    """Such as "4.2 ×"."""
+    return f"{race.figures(ratio)} ×"
 
 
-def ratios(found: Sequence[Contender]) -> str:
-    """The quickest setting of each that is exact enough, beside ours; then who they are."""
+def asked(rows: Sequence[Aim]) -> str:
+    """What ours should reach, and what they do; on a busy machine a miss says little."""
     columns = (
-        Column("", "in the figure"),
-        Column("solver"),
-        Column("assumes"),
-        Column(f"quickest to {TARGET:g}", "elements, step"),
-        Column("seconds", "per simulated second", NUMBER),
-        Column("over ours", kind=NUMBER),
-        Column("least error", "of the sweep", NUMBER),
-        Column("seconds", "error at 1 s only", NUMBER),
-        Column("set-up", "s", NUMBER),
-        Column("import, compile", "once, s", NUMBER),
+        Column("what", kind="prose"),
+        Column("ours", "quickest", "prose"),
+        Column("ahead by", kind=NUMBER),
+        Column("asked for", kind=NUMBER),
+        Column(""),
     )
-    who = (
-        *columns[:2],
-        Column("kind"),
-        Column("integrator", kind="prose"),
-        Column("rod", kind="prose"),
-        Column("version"),
-    )
-    mine = soonest([c for c in found if c.taker.ours])
-    times: list[Row] = []
-    takers: list[Row] = []
+    lines: list[Row] = []
+    for a in rows:
+        ahead = times(a.ahead) if isfinite(a.ahead) else "alone"
+        lines.append((a.words, a.why, ahead, f"≥ {race.figures(a.least)} ×", Mark(a.holds, severity="slow")))
+    return table(columns, lines)
+
+
+def at_once(found: Sequence[Contender]) -> str:
+    """Rows of loads, ✓ where a load was taken at once."""
+    heads = list(dict.fromkeys(a.stepping for c in found for a in c.attempts))
+    columns = (Column("solver"), Column("assumes"), *(Column(load, kind=NUMBER) for load in heads), Column("up to"))
+    lines: list[Row] = []
     for title, ours in (("Ours", True), ("Other people's", False)):
-        times.append(Group(title))
-        for letter, c in zip(LETTERS, found, strict=False):
-            if c.taker.ours is ours:
-                t, version = c.taker, next((a.found.version for a in c.attempts if a.found is not None), "–")
-                times.append((letter, t.name, t.assumes, *measured(c, None if mine is None else mine[1])))
-                takers.append((letter, t.name, "implicit" if t.implicit else "explicit", t.method, t.element, version))
-    return table(columns, times) + "<h3>Who they are</h3>" + table(who, takers)
-
-
-def measured(c: Contender, ours: float | None) -> tuple[str | Mark, ...]:
-    """Setting, seconds, ratio and the rest of a row."""
-    best, by_end = c.quickest(), c.quickest(final=True)
-    least, at_end = scientific(c.nearest), "–" if by_end is None else figures(seconds(by_end))
-    if best is None or best.found is None:
-        why = "not here" if c.absent else "not reached"
-        return Mark(False, bad=why, severity="slow"), "–", "–", least, at_end, "–", "–"
-    m = best.found
-    over = "–" if ours is None else f"{figures(m.solve / ours)} ×"
-    return f"{best.mesh}, {best.stepping}", figures(m.solve), over, least, at_end, figures(m.setup), figures(m.once)
-
-
-def settings(found: Iterable[Contender]) -> str:
-    """Every setting, refusals with their reason."""
-    columns = (
-        Column("elements"),
-        Column("step"),
-        Column("steps", kind=NUMBER),
-        Column("error", kind=NUMBER),
-        Column("error at 1 s", kind=NUMBER),
-        Column("seconds", "per simulated second", NUMBER),
-        Column("", kind="prose"),
-    )
-    rows: list[Row] = []
-    for c in found:
-        rows.append(Group(f"{c.taker.name}, {c.taker.assumes}" + (f": {c.absent}" if c.absent else "")))
-        for a in c.attempts:
-            m = a.found
-            if m is None:
-                rows.append((a.mesh, a.stepping, "–", "–", "–", "–", f"refused: {a.refused}"))
-            else:
-                steps = "–" if m.steps is None else f"{m.steps}"
-                errors = scientific(m.error), scientific(m.final)
-                rows.append((a.mesh, a.stepping, steps, *errors, figures(m.solve), ""))
-    return table(columns, rows)
-
-
-def figures(value: float) -> str:
-    """Two digits that mean something."""
-    return f"{value:.0f}" if value >= 9.5 else f"{value:.1f}" if value >= 0.95 else f"{value:.2g}"
+        lines.append(Group(title))
+        for c in found:
+            if c.taker.ours is not ours:
+                continue
+            if c.absent:
+                lines.append((c.taker.name, c.taker.assumes, *("–" for _ in heads), "not here"))
+                continue
+            taken = {a.stepping: "✓" if a.found is not None else "×" for a in c.attempts}
+            marks = (taken.get(load, "–") for load in heads)
+            lines.append((c.taker.name, c.taker.assumes, *marks, f"{largest(c):g}"))
+    return table(columns, lines)
