@@ -37,10 +37,12 @@ class Film:
     Args:
         times: Of the frames, shape (n_f,) [s].
         s: Arc length of the nodes, alike in all fibres, shape (n_s,) [m].
-        paths: Centrelines of the fibres, shape (n_f, N, n_s, 3) [m].
+        paths: Centrelines of the fibres in the straight groove, unrolled where it goes around a roller, shape
+            (n_f, N, n_s, 3) [m].
         pull: Axial force, shape (n_f, N, n_s) [N].
         pressed: Line load of groove and core, shape (n_f, N, n_s) [N/m].
-        met: Spots where rods press rods, a row each: frame, rod a, rod b, X, Y, Z [m], normal force [N].
+        met: Spots where rods press rods, a row each: frame, rod a, rod b, X, Y, Z in the straight groove [m], normal
+            force [N].
         crossed: Crossings seen from above, a row each: frame, k, l, the one on top, X [m], sign.
         X: Ends of the stretches along X, shape (n_f, n + 1) [m].
         T: Twist by pairs in each, shape (n_f, n) [turns/m].
@@ -103,10 +105,10 @@ def filmed(result: Result, scenario: Scenario) -> dict[str, Array]:
     arrays = {
         "times": result.t[chosen],
         "s": rods[0].s,
-        "paths": np.stack([h.r[chosen] for h in rods], axis=1),
+        "paths": np.stack([[scenario.unrolled(h.r[i]) for i in chosen] for h in rods], axis=1),
         "pull": np.stack([h.n[chosen, :, 0] for h in rods], axis=1),
         "pressed": np.stack([_pressed(result, k, chosen) for k in range(len(rods))], axis=1),
-        "met": _met(result, chosen),
+        "met": _met(result, scenario, chosen),
         "crossed": np.array([row for f, m in enumerate(told) for row in _crossed(f, m)]).reshape(-1, 6),
         **_stretches(told, scenario.fibres),
         "outline": _outline(scenario),
@@ -131,7 +133,7 @@ def _pressed(result: Result, rod: int, chosen: NDArray[np.int64]) -> Array:
     return np.asarray(sum((each.pressure[chosen] for each in felt), np.zeros((len(chosen), len(result.rods[rod].s)))))
 
 
-def _met(result: Result, chosen: NDArray[np.int64]) -> Array:
+def _met(result: Result, scenario: Scenario, chosen: NDArray[np.int64]) -> Array:
     """Spots of all contacts among rods."""
     rows = []
     for history in result.meetings:
@@ -139,7 +141,7 @@ def _met(result: Result, chosen: NDArray[np.int64]) -> Array:
             met = history.times[int(i)]
             force = np.einsum("ni,ni->n", met.force, met.normal)
             ends = np.full(len(force), f), met.rod_a, met.rod_b
-            rows.append(np.column_stack((*ends, met.point, force)))
+            rows.append(np.column_stack((*ends, scenario.unrolled(met.point), force)))
     return np.concatenate(rows) if rows else np.empty((0, 7))
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dolfinrod.twist import centrelines, crossings, exchanges, pairs, profile
+from dolfinrod.twist import centrelines, crossings, exchanges, pairs, profile, refined
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -99,8 +99,13 @@ def measure(result: Result, scenario: Scenario, i: int = -1, *, stations: int = 
     Raises:
         ValueError: Fibres that meet or are given by too few points, as `dolfinrod.twist` says.
     """
+    return refined(lambda pieces: _measured(result, scenario, i, stations, pieces))
+
+
+def _measured(result: Result, scenario: Scenario, i: int, stations: int, pieces: int) -> Measures:
+    """The same of curves with so many straight pieces between neighbouring nodes."""
     numbers = range(scenario.fibres)
-    curves = tuple(scenario.unrolled(r) for r in centrelines(result, i, rods=numbers))
+    curves = tuple(scenario.unrolled(r) for r in centrelines(result, i, rods=numbers, pieces=pieces))
     several, onward = len(curves) > 1, all(bool((np.diff(r[:, 0]) > 0.0).all()) for r in curves)
     wound = pairs(curves) if several else None
     crossed = crossings(curves) if several and onward else ()

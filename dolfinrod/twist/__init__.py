@@ -25,7 +25,7 @@ the wrong side. Where points are too far apart to tell that, `TooCoarse` says so
 """
 
 from dolfinrod.twist.axis import AxisWinding, Profile, axis_winding, delivered, profile
-from dolfinrod.twist.bundle import Bundle, centrelines, of, smooth
+from dolfinrod.twist.bundle import Bundle, centrelines, of, refined, smooth
 from dolfinrod.twist.coarse import TooCoarse
 from dolfinrod.twist.crossing import Crossing, Exchange, crossings, exchanges
 from dolfinrod.twist.flow import Outflow, outflow
@@ -56,6 +56,7 @@ __all__ = [
     "outflow",
     "pairs",
     "profile",
+    "refined",
     "smooth",
     "twist",
     "winding",

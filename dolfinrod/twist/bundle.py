@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 
@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["PIECES", "Bundle", "Solved", "centrelines", "of", "smooth"]
+__all__ = ["PIECES", "Bundle", "Solved", "centrelines", "of", "refined", "smooth"]
+
+Told = TypeVar("Told")
 
 # Straight pieces between neighbouring nodes: of an arc they are off by a sixteenth of what its chord is.
 PIECES = 4
@@ -82,12 +84,27 @@ def of(result: Solved, i: int = -1, *, rods: Sequence[int] | None = None, axis: 
         ValueError: Two rods meet, or share no stretch of X.
     """
     chosen = range(len(result.rods)) if rods is None else rods
+    return refined(lambda pieces: _measured(result, i, chosen, axis, pieces))
+
+
+def refined(measured: Callable[[int], Told]) -> Told:
+    """What the coarsest curves tell that are fine enough to see how rods turn.
+
+    Args:
+        measured: Takes the number of straight pieces between neighbouring nodes.
+
+    Returns:
+        What it returns.
+
+    Raises:
+        TooCoarse: The finest curves are not.
+    """
     for pieces in FINER[:-1]:
         try:
-            return _measured(result, i, chosen, axis, pieces)
+            return measured(pieces)
         except TooCoarse:
             continue
-    return _measured(result, i, chosen, axis, FINER[-1])
+    return measured(FINER[-1])
 
 
 def _measured(result: Solved, i: int, rods: Sequence[int], axis: ArrayLike | None, pieces: int) -> Bundle:

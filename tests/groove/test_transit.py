@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dolfinrod.groove import Bundle, Ends, LineSink, Pressing, Scenario, course, delivery, measure, variant
+from dolfinrod.groove import Bundle, Ends, LineSink, Pressing, Scenario, course, delivery, filmed, measure, variant
 from dolfinrod.groove.flow import Flow
 from dolfinrod.groove.roller import turned, unrolled, wrapped
 from dolfinrod.groove.variants import DELIVERY
@@ -140,6 +140,15 @@ def test_the_wider_the_roller_the_more_the_groove_is_a_straight_one():
         off.append(np.abs(scenario.unrolled(scenario.run("discrete").rods[0].r[-1]) - plain).max())
     assert off[0] < 1e-4
     assert off[0] / off[1] == pytest.approx(2.0, rel=0.1)
+
+
+@pytest.mark.serial
+def test_what_a_run_stores_lies_in_the_straight_groove():
+    """So pictures of a bundle around a roller are of the groove unrolled: it begins where the straight one does."""
+    straight = brief(core=None, steps=1)
+    bent = replace(straight, roller=0.025)
+    film = filmed(bent.run("discrete"), bent)
+    assert film["paths"][0] == pytest.approx(np.stack([h.r[0] for h in straight.run("discrete").rods]), abs=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,8 @@ import pytest
 
 import discrete
 import dolfinrod as dr
+from dolfinrod.twist import TooCoarse, refined
+from dolfinrod.twist.bundle import FINER
 
 pytestmark = pytest.mark.serial
 
@@ -106,3 +108,26 @@ def test_smooth_curves_come_nearer_with_the_order_of_cubics(given):
 def test_what_is_no_curve_is_refused(options, words):
     with pytest.raises(ValueError, match=words):
         dr.twist.smooth(np.arange(9.0).reshape(3, 3), **options)
+
+
+@pytest.mark.parametrize("needed", FINER)
+def test_curves_are_as_fine_as_it_takes(needed):
+    """The coarsest that can tell; where none can, the finest says so."""
+    tried = []
+
+    def measured(pieces):
+        tried.append(pieces)
+        if pieces < needed:
+            raise TooCoarse("too far apart")
+        return pieces
+
+    assert refined(measured) == needed
+    assert tried == [pieces for pieces in FINER if pieces <= needed]
+
+
+def test_no_curve_fine_enough_is_said():
+    def never(pieces):
+        raise TooCoarse(f"{pieces} pieces")
+
+    with pytest.raises(TooCoarse, match=f"{FINER[-1]} pieces"):
+        refined(never)
