@@ -214,7 +214,7 @@ def test_peers_makes_their_environment_once(machine):
     requirements.write_text("# pinned\nexudyn == 1\n")
     python = machine.path / ".venv-peers" / "bin" / "python"
     script = (machine.path / "run").read_text()
-    (machine.path / "run").write_text(script.replace("/usr/bin/python3 -m venv --clear", "make-venv"))
+    (machine.path / "run").write_text(script.replace('"$(peers_python)" -m venv --clear', "make-venv"))
     machine.fake("make-venv", 'echo "$1" >>made')
     python.parent.mkdir(parents=True)
     machine.write(python, 'echo "$*" >>made')

@@ -9,7 +9,7 @@ import numpy as np
 
 from discrete.links import Links
 from discrete.meeting import Encounters
-from dolfinrod.continuum import pairs
+from dolfinrod.continuum import links
 from dolfinrod.continuum.pairs import Pairs
 from dolfinrod.scene.meeting import coupling, meeting, neighbours, pressed, slipping, spots
 from dolfinrod.scene.meeting.anchors import Anchors
@@ -146,10 +146,9 @@ def _forgotten(_right: Any, self: Meeting, _memory: Any, x: Array, t: float) -> 
     self.place(x, t)
 
 
-def _half_linked(right: Any, *args: Any) -> Any:
+def _half_linked(right: Any, *args: Any) -> Array:
     """Of what one rod answers to the way of the other, only what either direction says is in the tangent."""
-    found = right(*args)
-    return replace(found, blocks=0.5 * found.blocks)
+    return np.asarray(0.5 * right(*args))
 
 
 def _counted_twice(right: Any, self: Pairs, b: Array, q: Array) -> None:
@@ -209,7 +208,7 @@ NEVER_THROUGH = replaced(meeting, "passes", lambda *_: False)
 ALWAYS_THROUGH = replaced(meeting, "passes", lambda *_: True)
 
 COUNTED_TWICE = replaced(Pairs, "add_residual", _counted_twice)
-HALF_LINKED = replaced(pairs, "linked", _half_linked)
+HALF_LINKED = replaced(links, "_between", _half_linked)
 TURNS_IN_ONE = replaced(Pairs, "accept", _turns_in_one)
 DISCRETE_TWICE = replaced(Encounters, "force", _discrete_twice)
 DISCRETE_TURNS_IN_ONE = replaced(Encounters, "accept", _discrete_turns_in_one)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import pytest
 
-from dolfinrod.continuum import forms, pool
+from dolfinrod.continuum import forms, pool, recovery
 
 Plant = Callable[[pytest.MonkeyPatch], None]
 
@@ -46,6 +47,7 @@ def all_of(*plants: Plant) -> Plant:
 def with_own_discretizations(patch: pytest.MonkeyPatch) -> None:
     """Nothing that a fault has touched is kept for later solves, nothing sound is used meanwhile."""
     patch.setattr(pool, "_IDLE", {"world": OrderedDict(), "self": OrderedDict()})
+    patch.setattr(recovery, "_tables", cache(recovery._tables.__wrapped__))
 
 
 def with_own_forms(patch: pytest.MonkeyPatch) -> None:
