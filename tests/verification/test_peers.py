@@ -10,11 +10,13 @@ import numpy as np
 import pytest
 
 from verification.ledger import decode, encode
-from verification.peers import environment, onestep, others, ours, race, rodothers, rodours, rods, talk
+from verification.peers import environment, onestep, others, ours, race, rodothers, rodours, rods, rough, talk
 from verification.peers.contest import TARGET, Attempt, Contender, Measured, Taker
 from verification.peers.conversation import Refused, ask, ask_all
 from verification.peers.environment import Environment, installed
 from verification.peers.reference import PATHS
+from verification.peers.roughothers import ROUGH_OTHERS
+from verification.peers.roughours import ROUGH_OURS
 from verification.peers.swing import SECTIONS, SWING, solution
 from verification.references.moving import moving
 from verification.report import peers, swing
@@ -123,7 +125,8 @@ def test_without_them_the_race_is_run_and_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(race, "installed", lambda: None)
     units = list(race.units((race.PEERS,), quick=True))
     found = [unit.work() for unit in units if "absent" in unit.parameters]
-    assert len(found) == len(others.OTHERS) + (1 + len(rods.QUICK)) * at_once()
+    sliding = len(rough.ROUGH) * len(ROUGH_OTHERS)
+    assert len(found) == len(others.OTHERS) + (1 + len(rods.QUICK)) * at_once() + sliding
     assert all(c.absent == environment.ABSENT and not c.attempts for c in found)
     page = peers.contents((contender(True, (1e-4, 2.0)), *found))
     assert f"Nobody else took part: {environment.ABSENT}" in page
@@ -138,9 +141,10 @@ def test_what_was_absent_is_asked_again_once_it_is_there(monkeypatch, interprete
     absent = parameters()
     monkeypatch.setattr(race, "installed", lambda: interpreter("exit"))
     theirs = len(others.OTHERS) + len(rods.RODS) * len(rodothers.ROD_OTHERS) + at_once()
+    theirs += len(rough.ROUGH) * len(ROUGH_OTHERS)
     mine = sum(own.poses(rod) for own in rodours.ROD_OURS for rod in rods.RODS)
     assert len(absent - parameters()) == theirs
-    assert len(absent) == theirs + mine + len(onestep.ONCE_OURS) + len(ours.OURS)
+    assert len(absent) == theirs + mine + len(onestep.ONCE_OURS) + len(ours.OURS) + len(ROUGH_OURS)
 
 
 def test_the_quickest_of_those_exact_enough_counts_and_nothing_between():

@@ -21,16 +21,24 @@ class Simulator(elastica.BaseSystemCollection, elastica.Constraints, elastica.Fo
 
 def straight(problem: dict[str, Any], n: int) -> elastica.CosseratRod:
     """A rod along x with the stiffnesses and the inertia of the problem."""
+    return laid(problem, np.linspace(np.zeros(3), [problem["length"], 0.0, 0.0], n + 1).T)
+
+
+def laid(problem: dict[str, Any], places: np.ndarray) -> elastica.CosseratRod:
+    """A rod through places (3, n + 1) in a plane across z, there without stretch; without curvature where straight."""
+    n, edges = places.shape[1] - 1, np.diff(places)
+    radius = problem.get("radius", 1.0 / np.sqrt(np.pi))
     rod = elastica.CosseratRod.straight_rod(
         n,
-        np.zeros(3),
-        np.array([1.0, 0.0, 0.0]),
-        np.array([0.0, 1.0, 0.0]),
+        places[:, 0].copy(),
+        edges[:, 0] / np.linalg.norm(edges[:, 0]),
+        np.array([0.0, 0.0, 1.0]),
         base_length=problem["length"],
-        base_radius=1.0 / np.sqrt(np.pi),
-        density=problem["rhoA"],
+        base_radius=radius,
+        density=problem["rhoA"] / (np.pi * radius**2),
         youngs_modulus=1.0,
         shear_modulus=1.0,
+        position=places,
     )
     # Directors are (d2, d3, d1), the tangent last.
     rod.shear_matrix[:] = np.diag([problem["GA"], problem["GA"], problem["EA"]])[..., None]

@@ -36,12 +36,11 @@ def rod(problem: dict[str, Any], settings: dict[str, Any]) -> Callable[[], list[
     n, length = settings["elements"], problem["length"]
     # Mass and rotary inertia do not matter at rest: waves of bending, stretch and shear are made equally slow.
     mass, h = 1.0, length / n
-    inertia = mass * h * h / 4.0
     step = SAFE * h * sqrt(mass / max(problem["EA"], problem["GA"]))
     needed = 6.0 * length * length * sqrt(mass / problem["EI"]) / step
     if needed > MOST:
         raise ArithmeticError(f"needs some {needed:.1e} explicit steps to come to rest, more than {MOST:g}")
-    body = straight({**problem, "rhoA": mass, "rhoI": inertia}, n)
+    body = straight({**problem, "rhoA": mass, "rhoI": 0.25 * mass * h * h}, n)
     simulator = Simulator()
     simulator.append(body)
     simulator.constrain(body).using(

@@ -47,7 +47,6 @@ def rod(problem: dict[str, Any], settings: dict[str, Any]) -> Callable[[], list[
     n, length = settings["elements"], problem["length"]
     thin = THICK * length
     moment = (2.0 * thin) ** 4 / 12.0
-    x, y, z = problem["force"]
     # The mass does not matter at rest: one that makes L²√(ρA/EI) a second.
     text = MODEL.format(
         step=STEP / n**2,
@@ -60,9 +59,7 @@ def rod(problem: dict[str, Any], settings: dict[str, Any]) -> Callable[[], list[
         half=0.5 * length / n,
         thin=thin,
         mass=problem["EI"] / length**3 / n,
-        x=x,
-        y=y,
-        z=z,
+        **dict(zip("xyz", problem["force"], strict=True)),
     )
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)

@@ -1,4 +1,4 @@
-"""The race as units of work: everybody on rods in equilibrium and on the swinging rod, in one run."""
+"""The race as units of work: everybody on rods in equilibrium, swinging, and on rough surfaces, in one run."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from verification.peers.ours import OURS, ours_measured
 from verification.peers.rodothers import ROD_OTHERS, rod_others_measured
 from verification.peers.rodours import ROD_OURS, rod_ours_measured
 from verification.peers.rods import RODS
+from verification.peers.rough import ROUGH
+from verification.peers.roughothers import ROUGH_OTHERS, rough_others_measured
+from verification.peers.roughours import ROUGH_OURS, rough_ours_measured
 from verification.peers.swing import SWING
 
 __all__ = ["PEERS", "listing", "units"]
@@ -42,6 +45,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
         yield from _rods(quick)
         yield from _once()
         yield from _swing(quick)
+        yield from _rough(quick)
 
 
 def _rods(quick: bool) -> Iterator[Unit]:
@@ -91,3 +95,22 @@ def _swing(quick: bool) -> Iterator[Unit]:
         words = f"Swinging rod: {other.taker.name}"
         parameters = (SWING.name, other.taker.name, stamp, extent)
         yield Unit("peer", words, parameters, partial(others_measured, other, environment, quick=quick))
+
+
+def _rough(quick: bool) -> Iterator[Unit]:
+    """Rods on rough surfaces."""
+    environment = installed()
+    stamp = ABSENT if environment is None else environment.stamp
+    extent = "quick" if quick else "full"
+    for own in ROUGH_OURS:
+        words = f"{own.problem.name}: {own.taker.name}"
+        yield Unit(
+            "peer", words, (own.problem.name, own.taker.name, extent), partial(rough_ours_measured, own, quick=quick)
+        )
+    for problem in ROUGH:
+        for other in ROUGH_OTHERS:
+            words = f"{problem.name}: {other.taker.name}"
+            parameters = (problem.name, other.taker.name, stamp, extent)
+            yield Unit(
+                "peer", words, parameters, partial(rough_others_measured, other, problem, environment, quick=quick)
+            )

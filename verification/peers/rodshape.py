@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, sin
+from math import ceil, cos, pi, sin
 
-__all__ = ["Place", "equal", "nodes"]
+__all__ = ["Place", "equal", "nodes", "round_drum"]
 
 # Position [m] and angle of the tangent in the x-y plane [rad].
 Place = tuple[float, float, float]
@@ -37,3 +37,20 @@ def point(way: float, turn: float) -> Place:
     half = 0.5 * turn
     chord = way * (sin(half) / half if half != 0.0 else 1.0)
     return chord * cos(half), chord * sin(half), turn
+
+
+def round_drum(n: int, tail: float) -> list[tuple[float, float, float]]:
+    """Nodes of a rope along x = −1, over a drum about z by n chords of half a unit circle, and back along x = 1.
+
+    Args:
+        n: Elements on the drum.
+        tail: Length of the rope before and after it [m].
+
+    Returns:
+        Positions [m].
+    """
+    angle = pi / n
+    straight = ceil(tail / angle)
+    before = [(-1.0, tail * (k / straight - 1.0), 0.0) for k in range(straight)]
+    arc = [(-cos(k * angle), sin(k * angle), 0.0) for k in range(n + 1)]
+    return [*before, *arc, *((-x, y, z) for x, y, z in reversed(before))]

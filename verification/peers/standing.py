@@ -8,6 +8,7 @@ from math import inf
 
 from verification.peers.contest import TARGET, TARGETS, Attempt, Contender, Taker
 from verification.peers.rods import RODS
+from verification.peers.rough import ROUGH
 from verification.peers.swing import SWING
 
 __all__ = ["Aim", "Standing", "aims", "named", "standing", "standings"]
@@ -88,7 +89,7 @@ def first(contenders: Iterable[Contender], target: float) -> tuple[Contender, At
 def standings(found: Iterable[Contender]) -> tuple[Standing, ...]:
     """Every problem that both sides were asked for, to every target, in space and anywhere."""
     found = tuple(found)
-    names = [name for name in (*(rod.name for rod in RODS), SWING.name) if _both(found, name)]
+    names = [name for name in (*(one.name for one in (*RODS, SWING, *ROUGH)),) if _both(found, name)]
     return tuple(
         standing(found, name, target, where) for name in names for target in TARGETS for where in (SPACE, PLANE)
     )

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 from verification.peers.onestep import ONCE, largest
 from verification.peers.rods import RODS
+from verification.peers.rough import ROUGH
 from verification.peers.standing import Aim, Standing, aims, named, standings
 from verification.peers.swing import SWING
 from verification.report import race, swing
@@ -16,6 +17,8 @@ from verification.report.tables import Column, Group, Mark, Row, table
 
 if TYPE_CHECKING:
     from verification.peers.contest import Contender
+    from verification.peers.rods import RodProblem
+    from verification.peers.rough import RoughProblem
 
 __all__ = ["TITLES", "WORDS", "contents", "summary", "verdict"]
 
@@ -23,11 +26,13 @@ TITLES = {"peers": "Beside other people's solvers, in this run"}
 WORDS = {
     "peers": "All solve the same rods: a cantilever under a tip force (P1), rolled up once and twice (P2a, P2b), "
     "the 45° bend (P3), a column beyond its Euler load (P4), a rod that swings for a second (P5), a slender fibre in "
-    "SI and without units (P6, P6n). Each is held against the solution of its own assumptions: the rod shears and "
+    "SI and without units (P6, P6n), a rod pushed along a rough plane (P7a, P7b) and a rope drawn over a drum "
+    "(capstan). Each is held against the solution of its own assumptions: the rod shears and "
     "stretches (sheared), only stretches (stretched), or neither (rigid); errors are distances of the tip over the "
-    "length. Seconds are those of the steps, one thread, in a process that is warm, the quickest repetition, in the "
-    "better of the two fewest numbers of load steps that find the equilibrium; nothing is interpolated. Cold: a whole "
-    "process with its imports, compiled code at hand.",
+    "length, of the way for P7, and of the pull over its value for the capstan. Seconds are those of the steps, one "
+    "thread, in a process that is warm, the quickest repetition, in the better of the two fewest numbers of load steps "
+    "that find the equilibrium; nothing is interpolated. Cold: a whole process with its imports, compiled code at "
+    "hand.",
 }
 NUMBER = "number"
 
@@ -44,19 +49,24 @@ def contents(found: Sequence[Contender]) -> str:
     if not found:
         return ""
     moving = [c for c in found if c.problem == SWING.name]
-    still = {rod.name: [c for c in found if c.problem == rod.name] for rod in RODS}
     parts = [f"<p><b>{escape(verdict(found))}</b></p>"]
     parts += [f"<p>{escape(swing.summary(moving))}</p>"] if moving else []
     parts += [asked(rows)] if (rows := aims(found)) else []
-    for rod in RODS:
-        if still[rod.name]:
-            title = f"{rod.name}: {rod.title}"
-            parts += [f"<h3>{escape(title)}</h3>", race.panel(still[rod.name], title), race.seconds(still[rod.name])]
-            parts.append(f"<details><summary>Every setting</summary>{race.settings(still[rod.name])}</details>")
+    parts += folds(found, RODS)
     once = [c for c in found if c.problem == ONCE]
     parts += ["<h3>Tip loads taken in one load step</h3>", at_once(once)] if once else []
     parts += [f"<h3>P5: {swing.TITLE}</h3>", swing.contents(moving)] if moving else []
+    parts += folds(found, ROUGH)
     return "\n".join(parts)
+
+
+def folds(found: Sequence[Contender], problems: Iterable[RodProblem | RoughProblem]) -> Iterator[str]:
+    """Figure, seconds and a fold with every setting, problem by problem."""
+    for problem in problems:
+        if there := [c for c in found if c.problem == problem.name]:
+            title = f"{problem.name}: {problem.title}"
+            yield from (f"<h3>{escape(title)}</h3>", race.panel(there, title), race.seconds(there))
+            yield f"<details><summary>Every setting</summary>{race.settings(there)}</details>"
 
 
 def summary(found: Iterable[Contender]) -> str:

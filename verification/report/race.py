@@ -101,13 +101,25 @@ def seconds(found: Sequence[Contender]) -> str:
         Column("cold", "whole process, s", NUMBER),
     )
     fastest = [min((spent(c.quickest(t)) for c in found), default=inf) for t in TARGETS]
+    # Nobody's whole process was timed: no column of dashes.
+    kept = 4 if any(c.cold is not None for c in found) else 3
     rows: list[Row] = []
     for title, ours in (("Ours", True), ("Other people's", False)):
         rows.append(Group(title))
         for letter, c in zip(LETTERS, found, strict=False):
             if c.taker.ours is ours:
-                rows.append((letter, c.taker.name, c.taker.assumes, *reached(c, fastest), *besides(c)))
-    return table(columns, rows)
+                rows.append((letter, c.taker.name, c.taker.assumes, *reached(c, fastest), *besides(c)[:kept]))
+    return table(columns[: len(columns) - len(besides(found[0])) + kept], rows) + absences(found)
+
+
+def absences(found: Iterable[Contender]) -> str:
+    """Why some did not take part, each reason once."""
+    reasons: dict[str, list[str]] = {}
+    for c in found:
+        if c.absent:
+            reasons.setdefault(c.absent, []).append(c.taker.name)
+    words = (f"{', '.join(names)}: {reason}" for reason, names in reasons.items())
+    return f"<p><small>Not here: {escape('; '.join(words))}.</small></p>" if reasons else ""
 
 
 def reached(c: Contender, fastest: Sequence[float]) -> list[str | Link]:
