@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.pair import Pair
-from discrete.rotation import log, tangents
+from discrete.rotation import log, turning
 from discrete.touched import Booking, Touched
 from discrete.unknowns import N_NODE, SPIN, X
 from dolfinrod.scene import AugmentedLagrangian, Touch
@@ -46,6 +46,7 @@ class Contacts:
         radius = np.repeat([rod.section.radius or 0.0 for rod in scene.rods], np.diff(mesh.first))
         self._pairs: list[Pair] = []
         self._seen: tuple[Array, Array] | None = None
+        self._touched: Touched | None = None
         self._force: Array
         for contact in scene.walls:
             a, b = (0, len(mesh.s)) if contact.rod is None else (contact.rod, contact.rod + 1)
@@ -140,15 +141,15 @@ class Contacts:
         if self._answered(x, R):
             return self._force.copy()
         total, place = np.zeros((len(x), N_NODE)), self._in_space(x)
-        turns = log(R @ np.swapaxes(self._R_0, 1, 2)) if self._rubs else total[:, X]
+        self._turns = log(R @ np.swapaxes(self._R_0, 1, 2)) if self._rubs else np.zeros_like(place)
         for pair in self._pairs:
-            reply = pair.respond(place, turns)
+            reply = pair.respond(place, self._turns)
             on = np.flatnonzero(reply.state)
             nodes, share = on + pair.mine.start, pair.share[on, None]
             total[nodes, X] += share / self._units.force * reply.force[on]
             if pair.rubs:
                 total[nodes, SPIN] += share / self._units.moment * reply.moment[on]
-        self._seen, self._force = (x, R), total
+        self._seen, self._force, self._touched = (x, R), total, None
         return total.copy()
 
     def at(self, x: Array, R: Array, t: float | None) -> Array:
@@ -174,20 +175,15 @@ class Contacts:
 
     def blocks(self) -> Touched:
         """Resistance where `force` was asked for last."""
-        n, L = len(self._mesh.x), self._units.length
-        total, touched = np.zeros((n, 6, 6)), np.zeros(n, dtype=bool)
-        for pair in self._pairs:
-            slope = pair.touch.gradient()
-            nodes, share = slope.points + pair.mine.start, pair.share[slope.points, None, None]
-            touched[nodes] = True
-            total[nodes, :3, :3] -= share * (L / self._units.force) * slope.f_x
-            if pair.rubs:
-                Θ, _ = tangents(pair.turn[slope.points], np.zeros((len(nodes), 3)))
-                total[nodes, :3, 3:] -= share / self._units.force * (slope.f_turn @ Θ)
-                total[nodes, 3:, :3] -= share * (L / self._units.moment) * slope.m_x
-                total[nodes, 3:, 3:] -= share / self._units.moment * (slope.m_turn @ Θ)
-        nodes = np.flatnonzero(touched)
-        return Touched(nodes, total[nodes])
+        if self._touched is None:
+            n = len(self._mesh.x)
+            total, touched = np.zeros((n, 6, 6)), np.zeros(n, dtype=bool)
+            Θ = turning(self._turns) if self._rubs else None
+            for pair in self._pairs:
+                touched[pair.resist(total, Θ, self._units)] = True
+            nodes = np.flatnonzero(touched)
+            self._touched = Touched(nodes, total[nodes])
+        return self._touched
 
     @property
     def pattern(self) -> bytes:

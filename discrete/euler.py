@@ -143,7 +143,7 @@ class BackwardEuler:
         while iteration < MOST_ITERATIONS * (1 if walls is None else 1 + walls.renewals):
             iteration += 1
             balance = self._balance(step, law, level)
-            if walls is not None and walls.changed:
+            if walls is not None and walls.foreign:
                 workshop.factors = None
             fresh = workshop.factors is None
             make, touched = partial(self._factors_at, step, law, level, balance), None

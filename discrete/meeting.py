@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.links import Links
-from discrete.rotation import log, tangents
+from discrete.rotation import log, turning
 from discrete.touched import Booking
 from discrete.unknowns import N_NODE, SPIN, X
 from dolfinrod.scene import Dynamic
@@ -141,7 +141,7 @@ class Encounters:
     def links(self) -> Links:
         """Resistance where `force` was asked for last."""
         if self._links is None:
-            Θ = tangents(self._turn, np.zeros_like(self._turn))[0] if self.rubs else None
+            Θ = turning(self._turn) if self.rubs else None
             couplings = [meeting.gradient() for meeting in self._meetings]
             self._links = Links([one for one in couplings if len(one.nodes)], self._units, Θ)
         return self._links

@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["coefficients", "cross", "eta", "exp", "log", "rate", "skew", "tangents"]
+__all__ = ["coefficients", "cross", "eta", "exp", "log", "rate", "skew", "tangents", "turning"]
 
 # Below this angle [rad] the coefficients are summed as series: the closed forms cancel there.
 _SMALL = 0.5
@@ -164,6 +164,23 @@ def rate(theta: NDArray[np.float64], spin: NDArray[np.float64]) -> NDArray[np.fl
     change -= cross(0.5 * theta, spin)
     change += spin
     return change
+
+
+def turning(theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Change of rotation vectors with spins, the matrices Θ of `tangents` alone.
+
+    Args:
+        theta: Rotation vectors, |θ| < 2π, shape (n, 3) [rad].
+
+    Returns:
+        Shape (n, 3, 3).
+    """
+    square = np.einsum("ni,ni->n", theta, theta)[:, None]
+    η = eta(square)
+    tangent = (η * theta)[:, :, None] * theta[:, None, :]
+    tangent -= skew(0.5 * theta)
+    tangent += (1.0 - η * square)[:, :, None] * _IDENTITY
+    return tangent
 
 
 def tangents(

@@ -47,8 +47,13 @@ class Walls:
 
     @property
     def changed(self) -> bool:
-        """Whether other nodes touch and stick than where `touched` was asked for last."""
+        """Whether other nodes touch and stick than where `touched` or `coupled` was asked for last."""
         return self.contacts.pattern != self._made
+
+    @property
+    def foreign(self) -> bool:
+        """Whether factors are of no use for that: what stands beside them where rods touch rods foresees it as well."""
+        return self.changed and self.contacts.others is None
 
     def touched(self) -> Touched:
         """Resistance where `press` was asked for last."""
@@ -57,7 +62,10 @@ class Walls:
 
     def coupled(self) -> Touched | None:
         """Resistance with what other rods do, where `press` was asked for last; None where there are none."""
-        return None if self.contacts.others is None else self.contacts.answers()
+        if self.contacts.others is None:
+            return None
+        self._made = self.contacts.pattern
+        return self.contacts.answers()
 
     def agree(self, step: Step, *, exact: bool) -> bool:
         """Whether a step may end where its last increment has led.

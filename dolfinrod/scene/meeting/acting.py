@@ -16,7 +16,7 @@ from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.changes import Changes
 from dolfinrod.scene.meeting.pressed import Pressed
 from dolfinrod.scene.meeting.slipping import Slip
-from dolfinrod.scene.meeting.slopes import RUBBING, WAYS, Leaning, Slid, pressing, rubbing
+from dolfinrod.scene.meeting.slopes import RUBBING, WAYS, pressing, rubbing
 from dolfinrod.scene.meeting.vectors import crossed, row
 
 __all__ = ["derivatives", "forces"]
@@ -56,16 +56,16 @@ def derivatives(pressed: Pressed, slip: Slip | None, friction: tuple[float, floa
     """
     facing, level, end, seen = pressed.facing, pressed.level, pressed.end, pressed.facing.opposite
     n, p, slope, length = facing.normal, pressed.p, pressed.slope, pressed.length
-    at, arm = Leaning(n, facing.distance, seen.t), np.zeros(len(p))
-    columns = pressing(at, p, slope, length, level, RUBBING if turns else WAYS)
+    at, D, arm = np.stack([n, seen.t], axis=1), facing.distance, np.zeros(len(p))
+    columns = pressing(at, D, p, slope, length, level, RUBBING if turns else WAYS)
     (force, couple), follow = forces(pressed, slip), (level * seen.follow)[:, None]
     weights, vectors = [facing.h, facing.h_v, end.h], [follow * seen.t, follow * seen.d, end.normal, force]
     if slip is not None:
         arm, rubs = slip.arm, slip.rubbing
         numbers = np.stack([slope, length, arm, slip.share, slip.share_gap], axis=1)
         resists = _resists(rubs.u, rubs.slides, p, *friction)
-        by = Slid(slip.ways.vectors, slip.start, slip.v, rubs.traction)
-        rubbing(at, by, numbers, resists, level, columns)
+        by = np.stack([slip.start, slip.v, rubs.traction], axis=1)
+        rubbing(at, D, slip.ways.vectors, by, numbers, resists, level, columns)
         if turns:
             weights += [slip.ways.lever, slip.ways.whole]
             vectors += [couple, 0.5 * level * n]

@@ -1,4 +1,7 @@
-"""Products of what changes at points of contact with what nodes do, and blocks of nodes."""
+"""Products of what changes at points of contact with what nodes do, and blocks of nodes.
+
+Kernels are given the arrays of a record one by one: to look at the type of a record costs Numba more than they do.
+"""
 
 from __future__ import annotations
 
@@ -82,24 +85,33 @@ def _changed(columns: Array, X: Point, δv: float, δg: float) -> Point:
 
 
 @compiled
-def applied(nodes: Integers, pair: Integers, of: Changes, dx: Array, dturn: Array) -> tuple[Array, Array]:
+def applied(
+    nodes: Integers,
+    pair: Integers,
+    weights: Array,
+    vectors: Array,
+    columns: Array,
+    arms: Array,
+    dx: Array,
+    dturn: Array,
+) -> tuple[Array, Array]:
     """What acts on nodes as they change: forces and moments, each of shape (n_nodes, 3) like `dx` and `dturn`."""
-    force, moment, turned = np.zeros(dx.shape), np.zeros(dx.shape), of.weights.shape[1] > 3
+    force, moment, turned = np.zeros(dx.shape), np.zeros(dx.shape), weights.shape[1] > 3
     for i in range(len(pair)):
-        at, w, vectors, arm = nodes[pair[i]], of.weights[i], of.vectors[i], of.arm[i]
+        at, w, v, c, arm = nodes[pair[i]], weights[i], vectors[i], columns[i], arms[i]
         X = _sum(w[H], at, dx)
-        δv = dotted(row(vectors, V_X), X) + dotted(row(vectors, V_V), _sum(w[H_V], at, dx))
-        δg = dotted(row(vectors, GAP_E), _sum(w[H_END], at, dx))
-        f, F = _changed(of.columns[i, 0], X, δv, δg), scaled(δv, row(vectors, FORCE))
+        δv = dotted(row(v, V_X), X) + dotted(row(v, V_V), _sum(w[H_V], at, dx))
+        δg = dotted(row(v, GAP_E), _sum(w[H_END], at, dx))
+        f, F = _changed(c[0], X, δv, δg), scaled(δv, row(v, FORCE))
         if turned:
-            Θ, Ψ, C = _sum(w[LEVER], at, dturn), _sum(w[WHOLE], at, dturn), row(vectors, COUPLE)
-            f = added(added(f, 1.0, _by(of.columns[i, 0], WAYS, Θ)), 1.0, _by(of.columns[i, 0], TURNS, Ψ))
-            c = _changed(of.columns[i, 1], X, δv, δg)
-            c = added(added(c, 1.0, _by(of.columns[i, 1], WAYS, Θ)), 1.0, _by(of.columns[i, 1], TURNS, Ψ))
-            longer = dotted(row(vectors, LONGER), X)
+            Θ, Ψ, C = _sum(w[LEVER], at, dturn), _sum(w[WHOLE], at, dturn), row(v, COUPLE)
+            f = added(added(f, 1.0, _by(c[0], WAYS, Θ)), 1.0, _by(c[0], TURNS, Ψ))
+            m = _changed(c[1], X, δv, δg)
+            m = added(added(m, 1.0, _by(c[1], WAYS, Θ)), 1.0, _by(c[1], TURNS, Ψ))
+            longer = dotted(row(v, LONGER), X)
             for a in range(len(at)):
                 by_arms = w[WHOLE, a] * longer + w[H_V, a] * arm * δv
-                _add(moment, at[a], added(scaled(-w[LEVER, a], c), -by_arms, C))
+                _add(moment, at[a], added(scaled(-w[LEVER, a], m), -by_arms, C))
         for a in range(len(at)):
             _add(force, at[a], added(scaled(w[H, a], f), -w[H_V, a], F))
     return force, moment
@@ -166,13 +178,13 @@ def _add_block(w: Array, arm: float, a: int, b: int, K: Array, block: Array) -> 
 
 
 @compiled
-def summed(pair: Integers, of: Changes, n_pairs: int) -> Array:
+def summed(pair: Integers, weights: Array, vectors: Array, columns: Array, arms: Array, n_pairs: int) -> Array:
     """Blocks of pairs of cells, as `_add_block` has them, shape (n_pairs, M, M, 9 or 36)."""
-    M, K = of.weights.shape[2], np.empty((15, 9))
-    blocks = np.zeros((n_pairs, M, M, 36 if of.weights.shape[1] > 3 else 9))
+    M, K = weights.shape[2], np.empty((15, 9))
+    blocks = np.zeros((n_pairs, M, M, 36 if weights.shape[1] > 3 else 9))
     for i in range(len(pair)):
-        w, arm, block = of.weights[i], of.arm[i], blocks[pair[i]]
-        _matrices(of.columns[i], of.vectors[i], K)
+        w, arm, block = weights[i], arms[i], blocks[pair[i]]
+        _matrices(columns[i], vectors[i], K)
         for a in range(M):
             for b in range(M):
                 _add_block(w, arm, a, b, K, block[a, b])
@@ -180,12 +192,14 @@ def summed(pair: Integers, of: Changes, n_pairs: int) -> Array:
 
 
 @compiled
-def diagonal(nodes: Integers, pair: Integers, of: Changes, n_nodes: int) -> Array:
+def diagonal(
+    nodes: Integers, pair: Integers, weights: Array, vectors: Array, columns: Array, arms: Array, n_nodes: int
+) -> Array:
     """Those of single nodes, shape (n_nodes, 9 or 36); nodes by pairs of cells, shape (P, M)."""
-    blocks, K = np.zeros((n_nodes, 36 if of.weights.shape[1] > 3 else 9)), np.empty((15, 9))
+    blocks, K = np.zeros((n_nodes, 36 if weights.shape[1] > 3 else 9)), np.empty((15, 9))
     for i in range(len(pair)):
-        w, arm = of.weights[i], of.arm[i]
-        _matrices(of.columns[i], of.vectors[i], K)
-        for a in range(of.weights.shape[2]):
+        w, arm = weights[i], arms[i]
+        _matrices(columns[i], vectors[i], K)
+        for a in range(weights.shape[2]):
             _add_block(w, arm, a, a, K, blocks[nodes[pair[i], a]])
     return blocks

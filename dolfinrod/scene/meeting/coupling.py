@@ -77,7 +77,7 @@ class Coupling:
     @cached_property
     def _blocks(self) -> list[Array]:
         """By places and turns, of forces, then of moments where anything turns, shape (P, M, 3, M, 3) each."""
-        return [part.transpose(0, 1, 3, 2, 4) for part in _parts(summed(self.pair, self.changes, len(self.nodes)))]
+        return [part.transpose(0, 1, 3, 2, 4) for part in _parts(summed(self.pair, *self.changes, len(self.nodes)))]
 
     @property
     def f_x(self) -> Array:
@@ -109,14 +109,14 @@ class Coupling:
         Returns:
             Of forces [N] and moments [N m], each of shape (n_nodes, 3).
         """
-        return applied(self.nodes, self.pair, self.changes, dx, dturn)
+        return applied(self.nodes, self.pair, *self.changes, dx, dturn)
 
     def nodal(self) -> Nodal:
         """Blocks that couple single nodes with themselves."""
         touched = np.zeros(self.n_nodes, dtype=bool)
         touched[self.nodes] = True
         nodes, at = np.flatnonzero(touched), (np.cumsum(touched) - 1)[self.nodes]
-        blocks = _parts(diagonal(at, self.pair, self.changes, len(nodes)))
+        blocks = _parts(diagonal(at, self.pair, *self.changes, len(nodes)))
         return Nodal(nodes, blocks[0], *(blocks[1:] if self.turns else (None, None, None)))
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.curves import Course, dot
-from dolfinrod.scene.meeting.projection import begin_at, opposite
+from dolfinrod.scene.meeting.projection import faced
 
 __all__ = ["Facing", "Opposite", "face", "look"]
 
@@ -59,7 +59,7 @@ def look(course: Course, a: Integers, u: Array, first: Integers, last: Integers)
     Returns:
         The closest places, which may be beyond the runs.
     """
-    return Opposite(*opposite(course.curves, a, u, *begin_at(course.curves, a, u, first, last)))
+    return Opposite(*faced(*course.curves, a, u, first, last))
 
 
 @dataclass(frozen=True, eq=False)

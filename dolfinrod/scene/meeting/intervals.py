@@ -23,6 +23,7 @@ __all__ = ["intervals"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
+Flags = NDArray[np.bool_]
 
 # Corrections of an interval on the true curves, and when one is small against its distance from the deepest point.
 CORRECTIONS, SETTLED = 12, 1e-6
@@ -51,14 +52,24 @@ def intervals(course: Course, near: Neighbours, reach: float) -> tuple[Array, Ar
     Returns:
         Where the intervals begin and end on the spans, equal where there are none, each of shape (n_runs,).
     """
-    return _found(course.curves, course.sag, course.spans.radius, near.on, near.first, near.last, reach)
+    return _found(*course.curves, course.sag, course.spans.radius, near.on, near.first, near.last, reach)
 
 
 @compiled
 def _found(
-    curves: Curves, sag: Array, radius: Array, on: Integers, first: Integers, last: Integers, reach: float
+    c: Array,
+    chord: Array,
+    onward: Flags,
+    back: Flags,
+    sag: Array,
+    radius: Array,
+    on: Integers,
+    first: Integers,
+    last: Integers,
+    reach: float,
 ) -> tuple[Array, Array]:
-    begins, ends = np.zeros(len(on)), np.zeros(len(on))
+    """As `intervals`; of curves the arrays, as Numba takes longer to see what a record is than the loop."""
+    curves, begins, ends = Curves(c, chord, onward, back), np.zeros(len(on)), np.zeros(len(on))
     for k in range(len(on)):
         a, ρ = on[k], radius[on[k]] + radius[first[k]] + reach
         u, b, v = _closest_chords(curves, sag, a, first[k], last[k], ρ)

@@ -11,10 +11,11 @@ from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.curves import Curves, along, spot
 from dolfinrod.scene.meeting.vectors import Point, row
 
-__all__ = ["begin", "begin_at", "between_chords", "chords_apart", "closest", "opposite"]
+__all__ = ["begin", "begin_at", "between_chords", "chords_apart", "closest", "faced", "opposite"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
+Flags = NDArray[np.bool_]
 
 # Of a span; Newton's method squares it with the next step, which is not taken.
 SETTLED = 1e-10
@@ -121,6 +122,16 @@ def begin_at(curves: Curves, a: Integers, u: Array, first: Integers, last: Integ
     for i in range(len(a)):
         b[i], v[i] = begin(curves, spot(curves.c, a[i], u[i]), first[i], last[i])
     return b, v
+
+
+@compiled
+def faced(
+    c: Array, chord: Array, onward: Flags, back: Flags, a: Integers, u: Array, first: Integers, last: Integers
+) -> tuple[Integers, Array, Array, Array, Array]:
+    """`opposite` from `begin_at` on; of curves the arrays, as Numba takes longer to see what a record is."""
+    curves = Curves(c, chord, onward, back)
+    b, v = begin_at(curves, a, u, first, last)
+    return opposite(curves, a, u, b, v)
 
 
 @compiled

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.vectors import Point, across, added, crossed, dotted, row, scaled, turned_by
 
-__all__ = ["GAP", "OPPOSITE", "RUBBING", "TURNS", "WAYS", "Leaning", "Slid", "pressing", "rubbing"]
+__all__ = ["GAP", "OPPOSITE", "RUBBING", "TURNS", "WAYS", "pressing", "rubbing"]
 
 Array = NDArray[np.float64]
 
 # Columns: X, its components; the coordinate v opposite; the gap at the end of a step; then Θ and Ψ, theirs.
 OPPOSITE, GAP, WAYS, TURNS, RUBBING = 3, 4, 5, 8, 11
+# Rows of what the normal follows: itself, and dx_B/dv as `Opposite` [m].
+NORMAL, ALONG = range(2)
+# Rows of how points slide: displacements from the anchors as `start` and `v` of `Slip` [m], traction [N/m].
+START, AWAY, TRACTION = range(3)
 # Rows of `Ways`.
 TURNED, BOTH, BOTH_V, W_STEP, W_V = range(5)
 
@@ -34,42 +36,13 @@ def _leans(q: int, n: Point, t: Point, closer: float, level: float) -> Point:
     return scaled(-closer, across(t, n)) if q == OPPOSITE else scaled(level * closer, across(_axis(q), n))
 
 
-class Leaning(NamedTuple):
-    """What the normal follows.
-
-    Args:
-        n: Normals, shape (n, 3).
-        D: Distances [m].
-        t: As `Opposite`, shape (n, 3) [m].
-    """
-
-    n: Array
-    D: Array
-    t: Array
-
-
-class Slid(NamedTuple):
-    """How points slide.
-
-    Args:
-        ways: `Ways.vectors`.
-        start: As `Slip`, shape (n, 3) [m].
-        v: Likewise.
-        t: Traction, shape (n, 3) [N/m].
-    """
-
-    ways: Array
-    start: Array
-    v: Array
-    t: Array
-
-
 @compiled
-def pressing(at: Leaning, p: Array, slope: Array, length: Array, level: float, columns: int) -> Array:
+def pressing(at: Array, D: Array, p: Array, slope: Array, length: Array, level: float, columns: int) -> Array:
     """Changes of p n times length.
 
     Args:
-        at: The points.
+        at: What normals follow, shape (n, 2, 3).
+        D: Distances [m].
         p: Line loads [N/m].
         slope: As `Pressed` [N/m²].
         length: Likewise [m].
@@ -81,7 +54,7 @@ def pressing(at: Leaning, p: Array, slope: Array, length: Array, level: float, c
     """
     change = np.zeros((len(p), 2 if columns == RUBBING else 1, 3, columns))
     for i in range(len(p)):
-        n, t, closer = row(at.n, i), row(at.t, i), 1.0 / at.D[i] if at.D[i] > 0.0 else 0.0
+        n, t, closer = row(at[i], NORMAL), row(at[i], ALONG), 1.0 / D[i] if D[i] > 0.0 else 0.0
         for q in range(WAYS):
             f = scaled(length[i] * p[i], _leans(q, n, t, closer, level))
             if q == GAP:
@@ -125,23 +98,27 @@ def _drawn(q: int, n: Point, n_q: Point, ways: Array, arm: float, level: float) 
 
 
 @compiled
-def rubbing(at: Leaning, by: Slid, numbers: Array, resists: Array, level: float, change: Array) -> None:
+def rubbing(
+    at: Array, D: Array, way: Array, by: Array, numbers: Array, resists: Array, level: float, change: Array
+) -> None:
     """Changes of the traction times length, and of the couple n × t.
 
     Args:
-        at: The points.
-        by: How they slide.
+        at: As for `pressing`.
+        D: Likewise.
+        way: `Ways.vectors`.
+        by: How points slide, shape (n, 3, 3).
         numbers: slope and length as `Pressed`, arm, share and share_gap as `Slip`, shape (n, 5).
         resists: Derivatives of the traction by the displacement from the anchors and by the line load, (n, 3, 4).
         level: As for `pressing`.
         change: What that gave; the traction is added.
     """
     for i in range(len(numbers)):
-        n, t, v, ways, r = row(at.n, i), row(by.t, i), row(by.v, i), by.ways[i], resists[i]
+        n, t, v, ways, r = row(at[i], NORMAL), row(by[i], TRACTION), row(by[i], AWAY), way[i], resists[i]
         slope, W, arm, share, share_gap = _five(numbers, i)
-        half, start, closer = scaled(0.5, row(ways, BOTH)), row(by.start, i), 1.0 / at.D[i] if at.D[i] > 0.0 else 0.0
+        half, start, closer = scaled(0.5, row(ways, BOTH)), row(by[i], START), 1.0 / D[i] if D[i] > 0.0 else 0.0
         for q in range(WAYS):
-            n_q, p_q = _leans(q, n, row(at.t, i), closer, level), 0.0
+            n_q, p_q = _leans(q, n, row(at[i], ALONG), closer, level), 0.0
             if q == GAP:
                 V_q, p_q = scaled(share_gap, row(ways, W_STEP)), slope
             else:
