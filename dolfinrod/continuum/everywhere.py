@@ -78,7 +78,7 @@ def strands(problem: Problem, cells: Integers) -> Strands:
         cells: Numbers of the nodes of every element, ascending along it, shape (n_cells, k + 1).
 
     Returns:
-        Lagrange's polynomials on the nodes of the elements.
+        Lagrange's polynomials on the nodes of the elements, without the kinks that these have where they meet.
     """
     d, scene = problem.discretization, problem.scene
     ends = [element_ends(scene, j, n) for j, n in enumerate(d.elements)]

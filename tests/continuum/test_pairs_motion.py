@@ -11,7 +11,7 @@ import pytest
 
 import dolfinrod as dr
 from dolfinrod.checkpoint import checkpoint as clock
-from tests.scenes import largest
+from tests.scenes import interpolated, largest
 
 RADIUS = 0.01
 SECTION = dr.Section(EA=4e3, GA=1.5e3, GJ=0.8, EI=1.0, radius=RADIUS, rhoA=1.0, rhoI=(5e-5, 2.5e-5, 2.5e-5))
@@ -135,7 +135,8 @@ def test_a_shot_over_a_diameter_a_step_hits():
     result = dr.solve(shot, **MESH)
     assert sum(row.cuts for row in result.log) > 0
     at = np.linspace(0.0, 1.0, 400)
-    below, above = (np.stack([np.interp(at, h.s, h.r[-1, :, i]) for i in range(3)], axis=1) for h in result.rods)
+    # Three elements bend so hard here that straight lines between their nodes are a radius off.
+    below, above = (interpolated(h.s, h.r[-1], MESH["degree"], at) for h in result.rods)
     seen = np.linalg.norm(below[:, None, :2] - above[None, :, :2], axis=2)
     i, j = np.unravel_index(seen.argmin(), seen.shape)
     assert above[j, 2] - below[i, 2] > RADIUS

@@ -18,6 +18,7 @@ EPS = float(np.finfo(float).eps)
 RADIUS, HALO = 0.05, 0.01
 # No two elements alike.
 S = np.array([0.0, 0.11, 0.25, 0.42, 0.5, 0.68, 0.83, 1.0])
+every_degree = pytest.mark.parametrize("k", [1, 2, 3, 4, 5])
 PARABOLA = np.random.default_rng(0).normal(size=(3, 3))
 
 
@@ -50,19 +51,62 @@ def test_cubics_have_no_kinks_and_follow_parabolas():
     assert largest((slope_end / long)[:-1] - (slope / long)[1:]) <= 1e4 * EPS
 
 
-@pytest.mark.parametrize("k", [1, 2, 3, 4])
+def elements(k: int, ends: Array) -> tuple[Strands, Array]:
+    """One rod of elements of degree k between some ends, and the arc lengths of its nodes."""
+    places, n = 0.5 - 0.5 * np.cos(np.pi * np.arange(k + 1) / k), len(ends) - 1
+    cells = np.stack([ends[:-1], ends[1:]], axis=1)
+    nodes = k * np.arange(n)[:, None] + np.arange(k + 1)
+    s = np.empty(n * k + 1)
+    s[nodes] = ends[:-1, None] + np.diff(ends)[:, None] * places
+    return Strands.lagrange(np.zeros(n, dtype=int), cells, nodes, places, np.array([RADIUS])), s
+
+
+@every_degree
 def test_elements_are_polynomials_through_their_nodes(k):
-    places = 0.5 - 0.5 * np.cos(np.pi * np.arange(k + 1) / k)
-    nodes = np.arange(3)[:, None] * k + np.arange(k + 1)
-    s = np.unique((np.arange(3)[:, None] + places).ravel().round(12))
-    ends = np.stack([np.arange(3.0), np.arange(3.0) + 1.0], axis=1)
-    spans = Spans(Strands.lagrange(np.zeros(3, dtype=int), ends, nodes, places, np.array([RADIUS])))
-    assert len(spans.rod) == 3 * k
+    lines, s = elements(k, S)
+    spans = Spans(lines)
+    assert len(spans.rod) == (len(S) - 1) * k
     curve = np.random.default_rng(0).normal(size=(k + 1, 3))
     at = sampled(spans, 5)
     exact = spans.along(*at)[:, None] ** np.arange(k + 1) @ curve
     assert largest(spans.course(s[:, None] ** np.arange(k + 1) @ curve).place(*at) - exact) <= 1e-10 * largest(exact)
     assert largest(spans.weights(*at).sum(axis=1) - 1.0) <= 1e3 * EPS
+
+
+@every_degree
+def test_elements_have_no_kinks_where_they_meet(k):
+    lines, s = elements(k, S)
+    x = np.random.default_rng(1).normal(size=(len(s), 3))
+    c, long = np.einsum("caq,cai->cqi", lines.shape, x[lines.nodes]), np.diff(S)[:, None]
+    power = np.arange(c.shape[1])
+    np.testing.assert_allclose(c.sum(axis=1), x[k::k], atol=1e3 * EPS)
+    slope, slope_end = c[:, 1] / long, np.einsum("q,cqi->ci", power, c) / long
+    np.testing.assert_allclose(slope_end[:-1], slope[1:], atol=1e-11 * largest(slope))
+    # At the ends of the rod there is nothing beside them to agree with.
+    first = elements(k, S[:2])[0]
+    alone = np.einsum("caq,cai->cqi", first.shape, x[first.nodes])
+    np.testing.assert_allclose(c[0, 1], alone[0, 1], atol=1e-11 * largest(slope))
+
+
+@every_degree
+def test_an_even_load_is_dealt_out_as_by_the_elements_alone(k):
+    """Weights of the nodes in ∫ x ds: those of one element by itself, added up over all."""
+    lines, s = elements(k, S)
+    alone = [elements(k, S[i : i + 2])[0] for i in range(len(S) - 1)]
+    found, exact = np.zeros((2, len(s)))
+    mean = 1.0 / (1.0 + np.arange(lines.shape.shape[2]))
+    np.add.at(found, lines.nodes, np.diff(S)[:, None] * (lines.shape @ mean))
+    for i, one in enumerate(alone):
+        np.add.at(exact, one.nodes[0] + k * i, (S[i + 1] - S[i]) * (one.shape[0] @ mean))
+    np.testing.assert_allclose(found, exact, atol=1e3 * EPS)
+
+
+@pytest.mark.parametrize("k", [1, 3, 5])
+def test_tangents_where_odd_elements_meet_are_an_order_better_than_theirs(k):
+    """Those of a curve one degree higher are exact there."""
+    lines, s = elements(k, S)
+    c = np.einsum("caq,ca->cq", lines.shape, (s ** (k + 1))[lines.nodes])
+    np.testing.assert_allclose(c[1:, 1] / np.diff(S)[1:], (k + 1) * S[1:-1] ** k, atol=1e-11)
 
 
 def test_closest_points_are_the_closest():

@@ -72,7 +72,7 @@ def crossing_case(name: str, title: str, levels: tuple[tuple[int, ...], tuple[in
         scale=reference.value,
         runs=(
             on_meshes(SPACE, crossing(name), continuum, limit=1e-3, quick=quick),
-            on_meshes(SPACE, crossing(name), (4, 8), limit=1e-3, words="nodes at the crossing"),
+            on_meshes(SPACE, crossing(name), (4, 8), limit=1e-3, words="nodes at the crossing", quick=quick),
             on_meshes(DISCRETE, crossing(name), discrete, limit=1e-3, quick=quick),
         ),
         quantity="lift of either middle over its ends, force between the rods; m, m, N",

@@ -15,6 +15,9 @@ Integers = NDArray[np.intp]
 
 # Rows: powers of ξ; columns: value at 0, slope at 0, value at 1, slope at 1.
 HERMITE = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [-3.0, -2.0, 3.0, -1.0], [2.0, 1.0, -2.0, 1.0]])
+# Rows: ξ (1 − ξ)² (1 − 5/2 ξ), whose slope is 1 at 0, and what mirrors it, whose slope is 1 at 1; columns: powers of ξ.
+# Without a mean: an even load is dealt out to the nodes as if they were not there.
+BUMPS = np.array([[0.0, 1.0, -4.5, 6.0, -2.5], [0.0, 0.0, 1.5, -4.0, 2.5]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,21 +65,65 @@ class Strands:
 
     @classmethod
     def lagrange(cls, rod: Integers, s: Array, nodes: Integers, places: Array, radius: Array) -> Strands:
-        """Polynomials through the m nodes of each element, cut into m − 1 spans.
+        """Polynomials through the k + 1 nodes of each element, their kinks smoothed out, cut into k spans.
+
+        x = Σ w_a x_a + h [(x'(0) − Σ w_a'(0) x_a) b_0(ξ) + (x'(1) − Σ w_a'(1) x_a) b_1(ξ)]: where two elements meet,
+        both end with the tangent x' of the polynomial through the ⌈k/2⌉ nodes on either side and the one they share, so
+        that curves of degree k remain what they are. Nodes inside are missed by as little as the elements are wrong.
 
         Args:
             rod: Of each element, shape (n_cells,).
             s: Arc lengths of the ends of the elements, shape (n_cells, 2) [m].
-            nodes: Rows of the table of nodes, shape (n_cells, m), in the order of `places`.
-            places: Local coordinates of the nodes, from 0 to 1, shape (m,).
+            nodes: Rows of the table of nodes, shape (n_cells, k + 1), in the order of `places`.
+            places: Local coordinates of the nodes, from 0 to 1, shape (k + 1,).
             radius: Of each rod, shape (n_rods,) [m].
 
         Returns:
-            Curves through the nodes, continuous from element to element.
+            Curves without kinks, each element with nodes of those beside it.
         """
-        shape = np.linalg.inv(np.vander(places, increasing=True)).T
-        every = np.broadcast_to(shape, (len(nodes), *shape.shape))
-        return cls(np.asarray(rod), np.asarray(s), np.asarray(nodes), every, np.asarray(radius), len(places) - 1)
+        rod, s, nodes, k = np.asarray(rod), np.asarray(s), np.asarray(nodes), len(places) - 1
+        beside = (k + 1) // 2
+        left = np.flatnonzero(rod[1:] == rod[:-1])
+        # At the ends of rods the last node is repeated, without weight.
+        before, after = np.repeat(nodes[:, :1], beside, axis=1), np.repeat(nodes[:, -1:], beside, axis=1)
+        before[left + 1], after[left] = nodes[left, k - beside : k], nodes[left + 1, 1 : beside + 1]
+        every = np.concatenate([before, nodes, after], axis=1)
+        own = np.linalg.inv(np.vander(places, increasing=True)).T
+        shape = np.zeros((*every.shape, max(k + 1, BUMPS.shape[1])))
+        shape[:, beside:-beside, : k + 1] = own
+        shape[:, :, : BUMPS.shape[1]] += _turned(np.ptp(s, axis=1), left, places, own) @ BUMPS
+        return cls(rod, s, every, shape, np.asarray(radius), k)
+
+
+def _turned(long: Array, left: Integers, places: Array, own: Array) -> Array:
+    """By how much ends of elements turn, weights of nodes in dx/dξ at 0 and at 1, shape (n_cells, m, 2).
+
+    Args:
+        long: Lengths of elements [m].
+        left: Those on which another one follows.
+        places: Local coordinates of their nodes.
+        own: Coefficients of their polynomials.
+    """
+    k, right = len(places) - 1, left + 1
+    beside = (k + 1) // 2
+    turned = np.zeros((len(long), k + 1 + 2 * beside, 2))
+    behind, ahead = places[k - beside : k] - 1.0, places[: beside + 1]
+    slope = _slopes_at_zero(np.concatenate([long[left, None] * behind, long[right, None] * ahead], axis=1), beside)
+    turned[right, : 2 * beside + 1, 0] = long[right, None] * slope
+    turned[left, k:, 1] = long[left, None] * slope
+    turned[right, beside:-beside, 0] -= own[:, 1]
+    turned[left, beside:-beside, 1] -= own @ np.arange(k + 1)
+    return turned
+
+
+def _slopes_at_zero(t: Array, middle: int) -> Array:
+    """Weights, in the slope of the polynomial through places t, of its values; the middle one is at 0; shape as t."""
+    apart = t[:, :, None] - t[:, None] + np.eye(t.shape[1])
+    part = 1.0 / apart.prod(axis=2)
+    weights = np.asarray(-part / (part[:, middle, None] * (t + np.eye(t.shape[1])[middle])))
+    weights[:, middle] = 0.0
+    weights[:, middle] = -weights.sum(axis=1)
+    return weights
 
 
 def _smooth(s: Array) -> tuple[Integers, Array]:
