@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.links import Links
+from discrete.mass import densities
 from discrete.rotation import log, turning
 from discrete.touched import Booking
 from discrete.unknowns import N_NODE, SPIN, X
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CROSSED", "Encounters"]
 
-CROSSED = "a rod went through another in one step"
+CROSSED = "a rod went through or leapt past another in one step"
 
 
 class Encounters:
@@ -49,7 +50,8 @@ class Encounters:
         self._mesh, self._units = mesh, mesh.units
         radius = np.array([np.nan if rod.section.radius is None else rod.section.radius for rod in scene.rods])
         strands, inert = Strands.smooth(mesh.s, radius), isinstance(scene.motion, Dynamic)
-        self._meetings = [Meeting(contact, strands, inert=inert) for contact in scene.meetings]
+        density = densities([rod.section for rod in scene.rods])[0] if inert else None
+        self._meetings = [Meeting(contact, strands, inert=inert, density=density) for contact in scene.meetings]
         self._among, self._radius = [contact.among(len(scene.rods)) for contact in scene.meetings], radius
         self._halo = max(0.0, *(contact.law.g_0 for contact in scene.meetings)) / mesh.units.length
         self._stiffest = max(contact.law.eps_N for contact in scene.meetings)
@@ -178,9 +180,10 @@ class Encounters:
     def pierced(self) -> bool:
         """Whether the step has led a rod through another, or to where both are squeezed to half of their thickness.
 
-        Where centrelines meet normals point anywhere, and balance there is none that holds.
+        Where centrelines meet normals point anywhere, and balance there is none that holds. Nor may it lead past one
+        so far that contact wins energy.
         """
-        return any(meeting.pierces() for meeting in self._meetings)
+        return any(meeting.pierces() or meeting.leapt(meeting.won()) for meeting in self._meetings)
 
     def stored(self) -> float:
         """Energy in penetrations and anchors in the last state that counts, in EI/L."""

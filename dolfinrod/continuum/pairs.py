@@ -12,12 +12,11 @@ from mpi4py import MPI
 
 import numpy as np
 
-from dolfinrod.continuum.everywhere import Everywhere, strands
+from dolfinrod.continuum.everywhere import Everywhere
 from dolfinrod.continuum.links import Frames, Links
+from dolfinrod.continuum.meetings import led_past, meetings
 from dolfinrod.continuum.met import kept, remembered
 from dolfinrod.continuum.working import working
-from dolfinrod.scene import Dynamic
-from dolfinrod.scene.meeting import Meeting
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PASSED", "Pairs"]
 
-PASSED = "a rod went through another: the step was too long, or eps_N is too small to keep them apart"
+PASSED = "a rod went through or leapt past another: the step was too long, or eps_N is too small to keep them apart"
 
 
 class Pairs:
@@ -56,16 +55,9 @@ class Pairs:
     _links: Links | None = None
 
     def __init__(self, problem: Problem, level: float = 1.0) -> None:
-        d, scene = problem.discretization, problem.scene
         self._problem, self._level, self.everywhere = problem, level, Everywhere(problem)
         self.r, self.q = self.everywhere.r, self.everywhere.q
-        lines = strands(problem, self.everywhere.cells)
-        mine = None
-        if d.comm.size > 1:
-            mine = np.zeros(len(self.everywhere.cells), dtype=bool)
-            mine[d.cell[: d.n_owned_cells]] = True
-        inert = isinstance(scene.motion, Dynamic)
-        self._meetings = [Meeting(contact, lines, level, inert=inert, mine=mine) for contact in scene.meetings]
+        self._meetings = meetings(problem, self.everywhere, level)
         self.turns = any(meeting.turns for meeting in self._meetings)
         self.at = np.concatenate([self.r, self.q], axis=1) if self.turns else self.r
         self.place(0.0)
@@ -173,8 +165,10 @@ class Pairs:
 
     @property
     def pierced(self) -> bool:
-        """Whether the step has led a rod through another."""
-        return self._on_any_rank(any(meeting.pierces() for meeting in self._meetings))
+        """Whether the step has led a rod through another, or past it so far that contact wins energy."""
+        self._respond()
+        pierced = self._on_any_rank(any(meeting.pierces() for meeting in self._meetings))
+        return pierced or led_past(self._meetings, self.everywhere)
 
     def _on_any_rank(self, mine: bool) -> bool:
         return bool(self._problem.discretization.comm.allreduce(mine, op=MPI.LOR))

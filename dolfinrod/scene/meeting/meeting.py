@@ -16,6 +16,7 @@ from dolfinrod.scene.meeting.acting import derivatives, forces
 from dolfinrod.scene.meeting.anchors import Anchors, keys, matched
 from dolfinrod.scene.meeting.coupling import Coupling, Felt, dealt
 from dolfinrod.scene.meeting.curves import Spans, dot
+from dolfinrod.scene.meeting.leaping import PART, kinetic, work
 from dolfinrod.scene.meeting.neighbours import Neighbours
 from dolfinrod.scene.meeting.passing import passes
 from dolfinrod.scene.meeting.pressed import Pressed, load
@@ -49,6 +50,7 @@ class Meeting:
         level: Where in a step forces act: 1 at its end, ½ in the middle.
         inert: Whether the rods have inertia: then what slid one way in an answer halts before it slides back.
         mine: Cells whose points are looked at here, shape (n_cells,); None: all.
+        density: Mass per length of each rod in a motion [kg/m]; None: what a step wins is not asked for.
 
     Attributes:
         turns: Whether the rods feel each other's turns.
@@ -65,8 +67,9 @@ class Meeting:
         *,
         inert: bool = False,
         mine: Flags | None = None,
+        density: Array | None = None,
     ) -> None:
-        self.contact, self._level, self._inert = contact, level, inert
+        self.contact, self._level, self._inert, self._density = contact, level, inert, density
         self._spans = spans = Spans(strands)
         touching = np.isin(spans.rod, contact.among(len(strands.radius)))
         own = np.ones(len(spans.rod), dtype=bool) if mine is None else np.asarray(mine)[spans.cell]
@@ -96,7 +99,7 @@ class Meeting:
         self._x_0, self._anchors = x.copy(), Anchors.none()
         self._course_0, self._stored = self._spans.course(x), None
         self._renew(x)
-        self._state = np.zeros((2, 0), dtype=np.intp)
+        self._state, self._t_0 = np.zeros((2, 0), dtype=np.intp), t
         self.begin(t)
 
     def _renew(self, *places: Array) -> None:
@@ -111,7 +114,7 @@ class Meeting:
 
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
-        self._law, self._ε_T = self.contact.law, self._stiffness
+        self._law, self._ε_T, self._t = self.contact.law, self._stiffness, t
         self._slid = np.zeros(0, dtype=np.intp), np.zeros((0, 3))
 
     def soften(self, by: float) -> None:
@@ -184,10 +187,23 @@ class Meeting:
             return True
         return passes(self._course_0, self._course, *self._near.swept(self._course_0, self._course))
 
+    def won(self) -> Array:
+        """What contact has won in a step of backward Euler [J], and how many points leapt, of those looked at here."""
+        if self._density is None or self._level < 1.0:
+            return np.zeros(2)
+        done, leaps = work(self._pressed, self._x - self._x_0)
+        return np.array([self._in(self._pressed) - self._pressed_in() + done if leaps else 0.0, leaps])
+
+    def leapt(self, won: Array) -> bool:
+        """Whether rods leapt past each other in the step and won too much, `won` added up over all who look."""
+        if self._density is None or not won[1] or won[0] <= 0.0:
+            return False
+        return bool(won[0] > PART * kinetic(self._course_0, self._course, self._density, self._t - self._t_0))
+
     def accept(self) -> tuple[float, float]:
         """The step counts; what is stored at its end, and what friction took in it [J]."""
         rubbed, slip, pressed = self._anchors.energy(self._stiffness), self._slip, self._pressed
-        self._x_0, self._course_0, self._marks_0 = self._x, self._course, self._marks
+        self._x_0, self._course_0, self._marks_0, self._t_0 = self._x, self._course, self._marks, self._t
         # Points of a mean load are others than those of the load itself, with which a memory starts again.
         self._anchors, self._stored = Anchors.none(), self._in(pressed) if self._level == 1.0 else None
         if slip is not None:
@@ -201,9 +217,13 @@ class Meeting:
 
     def stored(self) -> float:
         """Energy in penetrations and anchors at the start of the step [J]."""
+        return self._pressed_in() + self._anchors.energy(self._stiffness)
+
+    def _pressed_in(self) -> float:
+        """The same in penetrations alone."""
         if self._stored is None:
             self._stored = self._in(load(self._near, points(self._began()), self.contact.law, (self._course_0,)))
-        return self._stored + self._anchors.energy(self._stiffness)
+        return self._stored
 
     def memory(self) -> dict[str, Array]:
         """All that is remembered, one row a point: what `recall` takes."""
