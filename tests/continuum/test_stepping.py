@@ -72,34 +72,6 @@ def test_a_strip_goes_the_way_it_is_pushed(side, steps, solve):
     assert side * result.tip[2] == pytest.approx(0.373, abs=2e-3)
 
 
-def column(over: float, across: float, steps: int | None = None) -> dr.Scene:
-    """Clamped at the foot, under so many times its Euler load π²/4 EI/L², a part of it across."""
-    load = over * np.pi**2 / 4.0
-    push = dr.PointForce((-load, across * load, 0.0), at="end")
-    return cantilever(FLAT.straight(KIRCHHOFF), push, motion=dr.Static(steps=steps))
-
-
-@both_kinematics
-@pytest.mark.parametrize("across", [1e-3, -1e-5])
-@pytest.mark.parametrize("over", [1.02, 1.5, 2.5])
-def test_past_its_euler_load_a_column_is_found_where_small_steps_lead(over, across, kinematics):
-    """The whole load leads to the straight column, which is unstable: it is left to the side that the load pushes."""
-    once = dr.solve(column(over, across), elements=8, kinematics=kinematics)
-    assert once.log[-1].stable
-    assert once.statistics.load_steps <= 3
-    assert once.statistics.newton_iterations <= 35
-    followed = dr.solve(column(over, across, steps=40), elements=8, kinematics=kinematics)
-    np.testing.assert_allclose(once.tip, followed.tip, rtol=0, atol=1e-8)
-    assert np.sign(once.tip[1]) == np.sign(across)
-
-
-@both_kinematics
-def test_a_column_pushed_by_nothing_but_round_off_stays_straight(kinematics):
-    result = dr.solve(column(1.5, 1e-14), elements=8, kinematics=kinematics)
-    assert not result.log[-1].stable
-    assert abs(result.tip[1]) <= 1e-12
-
-
 @both_kinematics
 @pytest.mark.parametrize("degree", [2, 3])
 def test_a_tip_load_of_5000_is_taken_at_once(kinematics, degree):
