@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -19,6 +20,7 @@ ALLOWED = {
     "OMPI_MCA_mpi_yield_when_idle": "1",
     "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
 }
+COLOURS = re.compile(r"\x1b\[[0-9;]*m")
 # Longest run that is waited for [s].
 PATIENCE = 4 * 3600.0
 
@@ -48,5 +50,10 @@ def said(module: str, words: Sequence[str | int], ranks: int = 1) -> dict[str, A
         return {"failure": f"stopped after {PATIENCE:g} s"}
     if done.returncode != 0:
         return {"failure": (done.stderr.strip().splitlines() or ["no word"])[-1]}
-    told: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
-    return told
+    return _record(done.stdout)
+
+
+def _record(text: str) -> dict[str, Any]:
+    """The last line that is one; mpirun puts codes of colours around what ranks print."""
+    lines = [line for line in COLOURS.sub("", text).splitlines() if line.startswith("{")]
+    return dict(json.loads(lines[-1])) if lines else {"failure": "no word"}

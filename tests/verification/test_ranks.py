@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -55,6 +56,17 @@ def test_another_answer_is_told(monkeypatch, told, words):
 def test_what_a_process_does_not_survive_is_its_last_word():
     told = processes.said("verification.ranksrun", ("no such kind",))
     assert "not enough values to unpack" in told["failure"]
+
+
+@pytest.mark.parametrize("text", ['{"found": [1.0]}\n', '\x1b[32m{"found": [1.0]}\x1b[0m\n\x1b[0m\n'])
+def test_what_mpirun_colours_is_read(monkeypatch, text):
+    monkeypatch.setattr(processes.subprocess, "run", lambda *_, **__: SimpleNamespace(returncode=0, stdout=text))
+    assert processes.said("any", (), 2) == {"found": [1.0]}
+
+
+def test_a_process_that_says_nothing_has_failed(monkeypatch):
+    monkeypatch.setattr(processes.subprocess, "run", lambda *_, **__: SimpleNamespace(returncode=0, stdout="\x1b[0m\n"))
+    assert processes.said("any", ()) == {"failure": "no word"}
 
 
 def test_kinds_are_asked_for_by_name():
