@@ -124,7 +124,8 @@ def _growths(found: Sequence[GrowthStudy]) -> str:
     rows: list[Row] = []
     for study in found:
         grows = ", ".join(f"{name} {power(study.slope(key))}" for name, key in (("time", "ms"), ("memory", "memory")))
-        rows.append(Group(f"{_who(study)}: growth of {grows}"))
+        verdict = f"within {POWER:g}" if study.within else f"beyond {POWER:g}"
+        rows.append(Group(f"{_who(study)}: growth of {grows}, {verdict}"))
         for row in study.rows:
             sizes = (count(row.elements), count(row.unknowns), count(row.iterations))
             costs = ("–", "–") if row.failure else (ms(row.ms), count(round(row.memory)))

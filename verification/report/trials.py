@@ -143,7 +143,11 @@ def outcomes(report: Report) -> tuple[tuple[str, Sequence[Any], str], ...]:
         *motion.outcomes(report),
         ("ranks", report.ranks, "kinds of scenes with the same answer on one rank and on two"),
         ("bundles", report.bundles, "bundles moved to their ends, on ranks to the same"),
-        ("growth", limit.growths(report), "models of which an iteration grows no faster than the elements"),
+        (
+            "growth",
+            limit.growths(report),
+            "models on ever finer meshes: solved, with memory that grows no faster than the elements",
+        ),
         ("tops", report.tops, "rigid tops: orders of theory, momentum kept, energy lost or swinging as it should"),
         ("contact", report.touching, "ways to take a rod on a surface: answers within their limits, orders as stated"),
         ("groove", (*report.grooves, *report.beside), "ways into the groove on which the models agree"),
