@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from tests.verification.test_report import BLIND, report
 from verification.__main__ import main
+from verification.groovescenarioclaims import GrooveClaim
 from verification.report import summarise, write
 from verification.report.misses import sentence
 from verification.report.outcomes import outcomes
@@ -49,6 +50,14 @@ def test_what_is_missed_is_said_first():
     missed = report(brackets=(BLIND,))
     assert "1 is beyond" in sentences(missed)[0]
     assert any(o.sign == "✗" for o in outcomes(missed))
+
+
+def test_what_is_only_told_counts_as_nothing():
+    """Claims for which runs are too few are no numbers that hold."""
+    claims = (GrooveClaim("a", "found", holds=True), GrooveClaim("b", "found", holds=True, asked=False))
+    (found,) = (o for o in outcomes(report(scenarios=claims)) if "claims" in o.words)
+    assert (found.good, found.total) == (1, 1)
+    assert "1 not judged" in found.words
 
 
 def test_the_summary_holds_outcomes_misses_picture_and_machine(tmp_path):

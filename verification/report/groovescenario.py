@@ -38,7 +38,7 @@ def outcomes(found: Sequence[Gathered]) -> tuple[tuple[str, Sequence[Gathered], 
     """Of this section and that of the paper: their rows, and what is said of those that hold."""
     here = tuple(row for row in found if not isinstance(row, PaperRun))
     return (
-        ("groove-scenarios", here, "claims on bundles in the groove and runs of these that hold, or are only told"),
+        ("groove-scenarios", here, "claims on bundles in the groove hold, and runs of these ended"),
         ("groove-paper", rows_of(found), "readings of the paper that ran, or said why not"),
     )
 

@@ -63,8 +63,11 @@ def outcomes(report: Report) -> tuple[Outcome, ...]:
 
 
 def _counted(key: str, rows: Sequence[Any], words: str, mark: str) -> Outcome:
-    """How many hold; those that a case explains are neither good nor missed."""
+    """How many hold; those that a case explains are neither, those not judged are left out."""
+    told = [row for row in rows if getattr(row, "asked", True) is False]
+    rows = [row for row in rows if getattr(row, "asked", True) is not False]
     good, missed = sum(row.holds for row in rows), sum(getattr(row, "missed", not row.holds) for row in rows)
     explained = len(rows) - good - missed
     more = f", {explained} explained at their cases" if explained else ""
+    more += f"; {len(told)} not judged, runs being too few" if told else ""
     return Outcome(key, good, len(rows), words + more, mark if missed else "")
