@@ -75,7 +75,9 @@ def test_the_record_says_where_and_how_they_touch(pressed):
     assert (met.gap < GAP).all()
     assert (met.state == 2).all()
     np.testing.assert_allclose(np.einsum("ni,ni->n", met.force, met.normal), np.linalg.norm(met.force, axis=1))
-    assert pressed.meetings[0].times[0].gap.size == 0
+    # They begin at the very edge of the halo, where round-off says whether they touch, and nothing pushes.
+    np.testing.assert_allclose(pressed.meetings[0].times[0].gap, GAP, rtol=0, atol=1e-15)
+    assert largest(pressed.meetings[0].force(0, 0, 1)) <= 1e-12 * largest(pressed.meetings[0].force(-1, 0, 1))
     assert {"Rod contact"} <= set(pressed.formulation.terms)
     assert not {"Contact", "Friction"} & set(pressed.formulation.terms)
 

@@ -126,7 +126,7 @@ def test_an_interrupted_bundle_goes_on_to_the_same_answer(scheme, shared_path, m
 def test_a_shot_over_a_diameter_a_step_hits():
     """What would pass through the other in one step is taken in shorter ones; seen from above they stay in order."""
     scene = bundle(dr.Midpoint(), n=2, steps=4)
-    speed = 4 * RADIUS / STEP
+    speed = 3 * RADIUS / STEP
     shot = replace(
         scene,
         velocities=[dr.Velocity((0.0, 0.0, speed), rod=0)],

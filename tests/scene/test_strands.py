@@ -89,15 +89,16 @@ def test_elements_have_no_kinks_where_they_meet(k):
 
 
 @every_degree
-def test_an_even_load_is_dealt_out_as_by_the_elements_alone(k):
-    """Weights of the nodes in ∫ x ds: those of one element by itself, added up over all."""
+@pytest.mark.parametrize("power", [0, 1], ids=["even", "growing evenly"])
+def test_a_load_is_dealt_out_as_by_the_elements_alone(k, power):
+    """Weights of the nodes in ∫ ξ^power x ds over each: those of one element by itself, added up over all."""
     lines, s = elements(k, S)
     alone = [elements(k, S[i : i + 2])[0] for i in range(len(S) - 1)]
     found, exact = np.zeros((2, len(s)))
-    mean = 1.0 / (1.0 + np.arange(lines.shape.shape[2]))
-    np.add.at(found, lines.nodes, np.diff(S)[:, None] * (lines.shape @ mean))
+    moment = 1.0 / (1.0 + power + np.arange(lines.shape.shape[2]))
+    np.add.at(found, lines.nodes, np.diff(S)[:, None] * (lines.shape @ moment))
     for i, one in enumerate(alone):
-        np.add.at(exact, one.nodes[0] + k * i, (S[i + 1] - S[i]) * (one.shape[0] @ mean))
+        np.add.at(exact, one.nodes[0] + k * i, (S[i + 1] - S[i]) * (one.shape[0] @ moment))
     np.testing.assert_allclose(found, exact, atol=1e3 * EPS)
 
 

@@ -15,9 +15,9 @@ Integers = NDArray[np.intp]
 
 # Rows: powers of ξ; columns: value at 0, slope at 0, value at 1, slope at 1.
 HERMITE = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [-3.0, -2.0, 3.0, -1.0], [2.0, 1.0, -2.0, 1.0]])
-# Rows: ξ (1 − ξ)² (1 − 5/2 ξ), whose slope is 1 at 0, and what mirrors it, whose slope is 1 at 1; columns: powers of ξ.
-# Without a mean: an even load is dealt out to the nodes as if they were not there.
-BUMPS = np.array([[0.0, 1.0, -4.5, 6.0, -2.5], [0.0, 0.0, 1.5, -4.0, 2.5]])
+# Rows: ξ (1 − ξ)² (1 − 6ξ + 7ξ²), whose slope is 1 at 0, and what mirrors it, with slope 1 at 1; columns: powers of ξ.
+# Without mean and first moment: even loads, and those that grow evenly, go to the nodes as if they were not there.
+BUMPS = np.array([[0.0, 1.0, -8.0, 20.0, -20.0, 7.0], [0.0, 0.0, -2.0, 10.0, -15.0, 7.0]])
 
 
 @dataclass(frozen=True, eq=False)
