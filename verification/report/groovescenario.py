@@ -127,9 +127,9 @@ def _images(found: Sequence[GrooveImage]) -> str:
 
 def _models(row: GrooveModels) -> str:
     """Width, winding and forces over time, then cost."""
-    panels = []
+    panels, first = [], row.width[0][0]
     for name, unit, factor, values in (
-        ("width", "µm", 1e6, row.width),
+        (f"width less {1e6 * first:.4g} µm", "µm", 1e6, tuple([w - first for w in mine] for mine in row.width)),
         ("winding of pairs, mean", "turns", 1.0, row.wound),
         ("force of walls and core", "mN", 1e3, row.walls),
         ("force between fibres", "mN", 1e3, row.fibres),

@@ -19,10 +19,10 @@ TITLE = "The paper's groove as printed"
 WORDS = (
     "Steps of 1 µs, 200 elements of 0.5 or 0.2 mm, start at (0, 0, −1) mm, friction against the velocity of nodes that "
     "never sticks, c = 2e4 and ε₀ = 7.5e-5 in each unit they may be meant in. No equation of the paper has air: as "
-    "printed nothing moves but what 0.1 mN stretches; with our air added fibres fall, and the readings differ in what "
-    "they land on. In SI fibres float up to 75 µm above the walls, nearly four "
-    "diameters, so that none could touch another; in mm and mN or N the contact's own period is 0.5 or 0.015 µs, far "
-    "below a step, which implicit Euler damps away rather than resolves."
+    "printed nothing moves but what 0.1 mN stretches; with our air added fibres fall. To see: how far each reading "
+    "gets in the steps asked for. What follows of the numbers alone, and not of these runs: read as SI, walls hold "
+    "fibres up to 75 µm off, nearly four diameters, so that none could touch another; in mm and mN or N the contact's "
+    "own period is 0.5 or 0.015 µs, far below a step, which implicit Euler damps away rather than resolves."
 )
 NUMBER = "number"
 READ = {"SI": "N/m², m", "mm_mN": "mN/mm², mm", "mm_N": "N/mm², mm"}
