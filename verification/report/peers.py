@@ -31,8 +31,9 @@ WORDS = {
     "stretches (sheared), only stretches (stretched), or neither (rigid); errors are distances of the tip over the "
     "length, of the way for P7, and of the pull over its value for the capstan. Seconds are those of the steps, one "
     "thread, in a process that is warm, the quickest repetition, in the better of the two fewest numbers of load steps "
-    "that find the equilibrium; nothing is interpolated. Cold: a whole process with its imports, compiled code at "
-    "hand.",
+    "that find the equilibrium; nothing is interpolated. Alone: nobody else got there with the meshes of this "
+    "sweep, which in a quick run are two or three a solver and say nothing about finer ones. Cold: a whole process "
+    "with its imports, compiled code at hand.",
 }
 NUMBER = "number"
 
