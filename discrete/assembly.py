@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg.lapack import dgbsv, dgbtrf, dgbtrs
 
+from discrete.singly import solved
 from discrete.unknowns import AXIAL, N_ELEMENT, N_NODE, X
 
 if TYPE_CHECKING:
@@ -139,6 +140,10 @@ class Inverse:
         """Solutions of several systems, shape (n_unknowns, m)."""
         solution, _ = dgbtrs(self.band, _REACH, _REACH, right * self.left[:, None], self.pivots, overwrite_b=True)
         return np.asarray(solution * self.right[:, None])
+
+    def single(self, right: Array) -> Array:
+        """The same for one system, shape (n_unknowns,): for those who ask often."""
+        return solved(self.band.T, self.pivots, self.left, self.right, right)
 
 
 def _alternating(n_nodes: int, node_i: Indices) -> tuple[tuple[slice | Indices, slice | Indices], ...]:

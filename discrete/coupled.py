@@ -32,10 +32,8 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Entries = tuple[NDArray[np.int64], NDArray[np.int64], Array]
 
-__all__ = ["FINE", "CoupledInverse", "Hessenberg", "UncoupledError", "factorised", "forcing", "joined", "solved"]
+__all__ = ["CoupledInverse", "Hessenberg", "UncoupledError", "factorised", "joined", "solved"]
 
-# Forces between rods left out of balance, over those not foreseen, where increments shrink slowly and at best.
-FINE, FINEST = 1e-2, 1e-6
 # Iterations in which forces are found or never.
 MOST_ITERATIONS = 60
 # Part of a vector below which what is left of it is not at right angles to what has been taken off, to round-off.
@@ -63,6 +61,10 @@ class CoupledInverse:
     def times(self, right: Array) -> Array:
         """Solutions of several systems, shape (n_unknowns, m)."""
         return np.asarray(self.factors.solve(right * self.left[:, None]) * self.right[:, None])
+
+    def single(self, right: Array) -> Array:
+        """The same for one system, shape (n_unknowns,)."""
+        return np.asarray(self.factors.solve(right * self.left) * self.right)
 
 
 def factorised(tangent: Tangent) -> CoupledInverse:
@@ -140,22 +142,6 @@ def _in_axes(tangent: Tangent, entries: Entries) -> Entries:
     return turned.row, turned.col, turned.data
 
 
-def forcing(size: float, before: float, goal: float) -> float:
-    """Part of forces between rods that the next increment may leave out of balance.
-
-    It need not be found any finer than the tangent foresees it, nor than what is to be left at last.
-
-    Args:
-        size: Of the last increment.
-        before: Of the one before it.
-        goal: For what the last increment of a step leaves.
-    """
-    if not size * before > 0.0:
-        return FINE
-    ratio = size / before
-    return max(FINEST, min(FINE, max(0.1 * ratio, 0.1 * goal / (size * ratio))))
-
-
 def joined(
     start: Array, answer: Callable[[Array], Array], change: Callable[[Array], Array], fine: float
 ) -> Array | None:
@@ -163,8 +149,8 @@ def joined(
 
     Args:
         start: d₀, of any shape.
-        answer: A⁻¹, increments that forces of the same shape cause.
-        change: Δ, forces that increments cause beyond those in A.
+        answer: A⁻¹, increments that forces cause.
+        change: Δ, forces that increments cause beyond those in A, where there are any, of any other shape.
         fine: Part of Δ(d₀) that may stay out of balance.
 
     Returns:

@@ -181,6 +181,7 @@ class Equilibrium:
             touched = grip.touched
         held, guides = self.supports.increments(state.x, state.factors, goal), self.supports.guides
         d, residual, worked_in = self._system.increments(tangent, missing, held, level, guides, state.R, touched)
+        d = d if grip is None else grip.pivoted(state, d, worked_in)
         own = gather(d, node_i)
         N = force[:, X_J] + np.matmul(end, own[:, :, None])[:, :, 0]
         spin = chord_spin(state.u, own[:, X_J] - own[:, X_I] + gap, 0.5 * (own[:, SPIN_I] + own[:, SPIN_J]), e)

@@ -13,9 +13,9 @@ import numpy as np
 
 from discrete.approach import approach
 from discrete.assembly import SingularTangentError
-from discrete.coupled import FINE, forcing
 from discrete.ends import Ends
 from discrete.factors import Workshop
+from discrete.pace import FINE, Pace
 from discrete.rotation import tangents
 from discrete.step import PiercedError, Step, StepLostError
 from discrete.taken import Balance, Taken
@@ -139,13 +139,14 @@ class BackwardEuler:
     def _iterated(self, step: Step, law: Element, level: LoadLevel, spent: int) -> Taken:
         """Newton's method with factors that may be old, after some iterations of another kind."""
         workshop, walls, before, left = self._workshop, self._walls, np.inf, 0.0
-        iteration, stirred, settled, fine = 0, 0, True, FINE
+        iteration, stirred, settled, fine, age = 0, 0, True, FINE, np.inf
         while iteration < MOST_ITERATIONS * (1 if walls is None else 1 + walls.renewals):
             iteration += 1
             balance = self._balance(step, law, level)
             if walls is not None and walls.foreign:
                 workshop.factors = None
             fresh = workshop.factors is None
+            age = 0.0 if fresh else age + 1.0
             make, touched = partial(self._factors_at, step, law, level, balance), None
             if walls is not None:
                 touched, settled = walls.coupled(), walls.contacts.settled
@@ -156,19 +157,18 @@ class BackwardEuler:
             step.move(found.d if settled or iteration < PATIENT or found.size < 0.5 * before else 0.5 * found.d)
             goal = min(TOLERANCE * step.motion(), FINEST)
             exact = found.size == 0.0 or (found.size < ROUND_OFF and found.size > 0.25 * before)
-            rough = 0.0 if touched is None else fine * found.size
-            done = exact or (iteration > 1 and rough <= goal and workshop.wear.enough(found.size, before, goal))
+            pace = None if touched is None else Pace(found.size, before, goal, age, fine)
+            done = exact or (iteration > 1 and workshop.enough(found.size, before, goal, pace))
             if iteration > 2 and not fresh and settled:
                 left = max(left, found.size / before)
             if done and (walls is None or walls.agree(step, exact=exact)):
-                if workshop.wear.see(iteration - stirred, left):
+                if workshop.wear.see(iteration - stirred, left) and (touched is None or not touched.meets):
                     workshop.factors = None
                 return self._taken(step, found, balance, level, spent + iteration)
-            # Rods that touch change more than any factors could foresee, before it tells how old these are.
-            told = iteration > (1 if touched is None else PATIENT)
-            if not fresh and settled and told and workshop.wear.slow(found.size, before, goal):
+            if pace is not None:
+                fine = workshop.go_on(pace)
+            elif iteration > 1 and not fresh and workshop.wear.slow(found.size, before, goal):
                 workshop.factors = None
-            fine = forcing(found.size, before, goal) if iteration > 1 else FINE
             before = found.size
         raise StepLostError(f"no convergence in {MOST_ITERATIONS} iterations")
 

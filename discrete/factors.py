@@ -18,6 +18,7 @@ from discrete.coupled import UncoupledError, factorised, joined
 from discrete.loose import loose
 from discrete.nodes import NodalSystem
 from discrete.rows import of_vectors, rotated, turn, turn_back
+from discrete.singly import turned_back, turned_on
 from discrete.solution import Factors, Increments
 from discrete.unknowns import AXIAL, N_NODE, SPIN, SPIN_J, X_J, X
 from discrete.wear import Wear
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
     from discrete.loads import LoadLevel
     from discrete.mesh import Mesh
+    from discrete.pace import Pace
     from discrete.supports import Supports
     from discrete.touched import Touched
 
@@ -72,6 +74,18 @@ class Workshop:
         """Give the factors up where they are of another length of the step."""
         if self.factors is not None and abs(self.factors.dt / dt - 1.0) > OTHER_STEP:
             self.factors = None
+
+    def enough(self, size: float, before: float, goal: float, pace: Pace | None) -> bool:
+        """Whether what an increment leaves is below a goal; arguments as for `Pace`, None where no rods may touch."""
+        if pace is None:
+            return self.wear.enough(size, before, goal)
+        return pace.rough * size <= goal and (pace.foretold or self.wear.enough(size, before, goal))
+
+    def go_on(self, pace: Pace) -> float:
+        """Give factors up that are too slow; the part of forces that the next increment may leave out of balance."""
+        if pace.slow:
+            self.factors = None
+        return pace.fine(renewed=self.factors is None)
 
     def make(
         self,
@@ -185,21 +199,28 @@ class Workshop:
 
     def _joined(self, factors: Factors, touched: Touched, Q: Array, d: Array, fine: float) -> tuple[Array, Array]:
         """Increments with what rods do to one another beyond what is in the factors, in space and turned back."""
-        known = factors.known(Q)
+        known, guided, some = factors.known(Q), len(factors.tangent.guided) > 0, np.zeros(Q.shape[2], dtype=bool)
+        for one in (touched, factors.touched):
+            if one is not None:
+                one.mark(some)
+        at = np.flatnonzero(some)
 
         def answer(force: Array) -> Array:
-            right = rotated(turn_back, Q, force.T).T
-            flat = factors.tangent.in_axes(right).reshape(-1) if len(factors.tangent.guided) else right.reshape(-1)
+            right = np.zeros((len(some), N_NODE))
+            right[at] = force
+            right = turned_back(Q, right)
+            flat = factors.tangent.in_axes(right).reshape(-1) if guided else right.reshape(-1)
             flat[self._held] = 0.0
-            return self._solution(factors, flat, Q)[0].T
+            own = factors.inverse.single(flat).reshape(right.shape)
+            return turned_on(Q, factors.tangent.in_space(own) if guided else own)
 
         def change(d: Array) -> Array:
-            return touched.change(d) - known(d)
+            return np.asarray(touched.change(d)[at] - known(d)[at])
 
-        found = joined(d.T, answer, change, fine)
+        found = joined(np.ascontiguousarray(d.T), answer, change, fine)
         if found is None:
             raise UncoupledError
-        return found.T, rotated(turn_back, Q, found.T)
+        return found.T, turned_back(Q, found).T
 
     def _solution(self, factors: Factors, right: Array, Q: Array) -> tuple[Array, Array]:
         """Increments in space and turned back, shapes (7, n_nodes), for a right-hand side."""

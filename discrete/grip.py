@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from discrete.pivots import completed
 from discrete.rounds import Rounds
 from discrete.unknowns import X
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from discrete.nodes import Tangent
     from discrete.state import Outcome, State
     from discrete.surroundings import Surroundings
     from discrete.touched import Touched
@@ -38,6 +40,8 @@ SOFTEST, STIFFER = 1e5, 100.0
 ROUGH = 0.1
 # And at which multipliers may be renewed: what they change is found with the rest.
 NEARLY = 1e-2
+# Ways in L after which a linear step tells nothing of what it presses.
+FAR = 1.0
 # Trials in which it is found out what a step turning more than that presses, before anything moves.
 FORESIGHTS = 2
 # Renewals of multipliers after which they have failed.
@@ -67,6 +71,7 @@ class Grip:
 
     def __init__(self, contacts: Surroundings, most: int, fine: float) -> None:
         self._contacts, self._rounds, self._direct = contacts, Rounds(), most == DIRECT
+        self._gives_way = False
         self.fine, self._foresights = fine, FORESIGHTS if self._direct else 0
 
     def press(self, state: State) -> Array:
@@ -74,6 +79,24 @@ class Grip:
         self._force, self._reach = self._contacts.force(state.x, state.R), self._contacts.reach(state.x)
         self.touched = self._contacts.blocks()
         return self._force
+
+    def pivoted(self, state: State, d: Array, tangent: Tangent) -> Array:
+        """Increments with which surfaces press what they should where these lead, d of all nodes as for `part`.
+
+        Args:
+            state: Where they are taken.
+            d: With the tangent as it is.
+            tangent: That.
+        """
+        walls, others = self._contacts.walls, self._contacts.others
+        # Rods that touch others exchange points of these, too, of which the set would know nothing.
+        if walls is None or others is not None or self._gives_way or self.fine >= ROUGH:
+            return d
+        if np.abs(d[:, X]).max() > FAR:
+            return d
+        missing = completed(walls, state.x + d[:, X], tangent, self._contacts.units)
+        self._gives_way = missing is None
+        return d if missing is None else d + missing
 
     def part(self, change: float, d: Array) -> float:
         """Part of increments to be taken: half of those that lead round in a circle, no leap of rods past each other.
@@ -89,7 +112,7 @@ class Grip:
     @property
     def lost(self) -> bool:
         """Whether the iteration goes round in circles, or is to be given up for softer walls as it only creeps."""
-        return self._rounds.circling or (self._direct and self._rounds.creeping)
+        return self._rounds.circling or (self._direct and (self._rounds.creeping or self._gives_way))
 
     def foresees(self, x: Array, turn: float) -> bool:
         """Whether so long a step presses other nodes than it was taken with: it is taken anew with these first."""

@@ -7,21 +7,44 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from discrete.unknowns import AXIAL, N_NODE, SPIN, X
+from discrete.unknowns import AXIAL, N_NODE
+from dolfinrod.scene.compiled import compiled
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from numpy.typing import NDArray
-
     from discrete.mesh import Units
     from dolfinrod.scene.meeting import Coupling
 
-    Array = NDArray[np.float64]
-    Indices = NDArray[np.int64]
-
 __all__ = ["Links"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+@compiled
+def _moved(d: Array, length: float, turning: Array) -> tuple[Array, Array]:
+    """What increments displace and turn nodes by, SI units, shape (n_nodes, 3) each."""
+    dx, turn = np.empty((len(d), 3)), np.zeros((len(d), 3))
+    for n in range(len(d)):
+        for i in range(3):
+            dx[n, i] = length * d[n, i]
+    for n in range(len(turning)):
+        for i in range(3):
+            turn[n, i] = turning[n, i, 0] * d[n, 3] + turning[n, i, 1] * d[n, 4] + turning[n, i, 2] * d[n, 5]
+    return dx, turn
+
+
+@compiled
+def _add(force: Array, moment: Array, unit: float, unit_moment: float, change: Array) -> None:
+    """Add forces and moments, shape (n_nodes, 3), divided by their units, to those of shape (n_nodes, 7)."""
+    for n in range(len(change)):
+        for i in range(3):
+            change[n, i] += force[n, i] / unit
+            change[n, 3 + i] += moment[n, i] / unit_moment
+
 
 # Places of three by three values.
 _I, _J = np.arange(3)[:, None], np.arange(3)
@@ -43,16 +66,11 @@ class Links:
 
     def change(self, d: Array) -> Array:
         """Change of all forces and moments with increments of all nodes, shape (n_nodes, 7) both."""
-        change = np.zeros_like(d)
-        dx, turn = np.multiply(d[:, X], self.units.length, order="C"), np.zeros((len(d), 3))
-        if self.turning is not None:
-            turn = np.matmul(self.turning, d[:, SPIN, None])[:, :, 0]
+        d = np.ascontiguousarray(d)
+        dx, turn = _moved(d, self.units.length, np.zeros((0, 3, 3)) if self.turning is None else self.turning)
+        change = np.zeros(d.shape)
         for coupling in self.couplings:
-            force, moment = coupling.times(dx, turn)
-            change[:, X] += force
-            change[:, SPIN] += moment
-        change[:, X] /= self.units.force
-        change[:, SPIN] /= self.units.moment
+            _add(*coupling.times(dx, turn), self.units.force, self.units.moment, change)
         return change
 
     @cached_property

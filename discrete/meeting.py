@@ -12,7 +12,6 @@ import numpy as np
 
 from discrete.links import Links
 from discrete.mass import densities
-from discrete.rotation import log, turning
 from discrete.touched import Booking
 from discrete.unknowns import N_NODE, SPIN, X
 from dolfinrod.scene import Dynamic
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from discrete.mesh import Mesh
+    from discrete.turns import Turns
     from dolfinrod.meetings import Meetings
     from dolfinrod.scene import Scene
 
@@ -40,14 +40,15 @@ class Encounters:
     Args:
         scene: The problem.
         mesh: Its nodes.
+        over: Turns of sections over a step.
 
     Attributes:
         rubs: Whether any knows friction.
         stirred: Whether other spots touched, or stuck, from one answer to the next since the last state that counts.
     """
 
-    def __init__(self, scene: Scene, mesh: Mesh) -> None:
-        self._mesh, self._units = mesh, mesh.units
+    def __init__(self, scene: Scene, mesh: Mesh, over: Turns) -> None:
+        self._mesh, self._units, self._over = mesh, mesh.units, over
         radius = np.array([np.nan if rod.section.radius is None else rod.section.radius for rod in scene.rods])
         strands, inert = Strands.smooth(mesh.s, radius), isinstance(scene.motion, Dynamic)
         density = densities([rod.section for rod in scene.rods])[0] if inert else None
@@ -110,7 +111,7 @@ class Encounters:
             return self._force.copy()
         place, total = self._in_space(x), np.zeros_like(self._force)
         if self.rubs:
-            self._turn = log(R @ np.swapaxes(self._R_0, 1, 2))
+            self._turn = self._over.over(R, self._R_0)
         for meeting in self._meetings:
             felt = meeting.respond(place, self._turn)
             total[:, X] += felt.force
@@ -143,7 +144,7 @@ class Encounters:
     def links(self) -> Links:
         """Resistance where `force` was asked for last."""
         if self._links is None:
-            Θ = turning(self._turn) if self.rubs else None
+            Θ = self._over.following(self._turn) if self.rubs else None
             couplings = [meeting.gradient() for meeting in self._meetings]
             self._links = Links([one for one in couplings if len(one.nodes)], self._units, Θ)
         return self._links

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from discrete.rows import rotated, turn, turn_back
+from discrete.rows import turn
+from discrete.singly import turned_back, turned_blocks, turned_on
+from discrete.touched import Touched
 from discrete.unknowns import AXIAL
 
 if TYPE_CHECKING:
@@ -19,7 +21,6 @@ if TYPE_CHECKING:
     from discrete.coupled import CoupledInverse
     from discrete.ends import Ends
     from discrete.nodes import Tangent
-    from discrete.touched import Touched
 
     Array = NDArray[np.float64]
 
@@ -60,18 +61,8 @@ class Factors:
         if touched is None:
             return np.zeros_like
         if touched.links is not None:
-            return lambda d: rotated(turn, Q, touched.change(rotated(turn_back, Q, d.T).T).T).T
-        nodes, m = touched.nodes, len(touched.nodes)
-        q = Q[:, :, nodes].transpose(2, 0, 1)[:, None, None]
-        parts = touched.blocks.reshape(m, 2, 3, 2, 3).transpose(0, 1, 3, 2, 4)
-        blocks = (q @ parts @ np.swapaxes(q, 3, 4)).transpose(0, 1, 3, 2, 4).reshape(m, AXIAL, AXIAL)
-
-        def change(d: Array) -> Array:
-            change = np.zeros_like(d)
-            change[nodes, :AXIAL] = -np.matmul(blocks, d[nodes, :AXIAL, None])[:, :, 0]
-            return change
-
-        return change
+            return lambda d: turned_on(Q, touched.change(turned_back(Q, d)))
+        return Touched(touched.nodes, turned_blocks(Q, touched.nodes, touched.blocks)).change
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ import numpy as np
 from discrete.contact import Contacts
 from discrete.meeting import CROSSED, Encounters
 from discrete.touched import Booking, Touched
+from discrete.turns import Turns
 from dolfinrod.scene.piercing import PIERCED
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from discrete.mesh import Mesh
+    from discrete.mesh import Mesh, Units
     from dolfinrod.meetings import Meetings
     from dolfinrod.scene import Scene
 
@@ -39,8 +40,9 @@ class Surroundings:
 
     def __init__(self, scene: Scene, mesh: Mesh) -> None:
         self._mesh = mesh
-        self.walls = Contacts(scene, mesh) if scene.walls else None
-        self.others = Encounters(scene, mesh) if scene.meetings else None
+        over = Turns()
+        self.walls = Contacts(scene, mesh, over) if scene.walls else None
+        self.others = Encounters(scene, mesh, over) if scene.meetings else None
         self._both: tuple[Contacts | Encounters, ...] = tuple(
             one for one in (self.walls, self.others) if one is not None
         )
@@ -86,6 +88,11 @@ class Surroundings:
         """Begin it with what slid on surfaces in the last state that counts sliding on."""
         if self.walls is not None:
             self.walls.glide()
+
+    @property
+    def units(self) -> Units:
+        """Of the model."""
+        return self._mesh.units
 
     @property
     def renews(self) -> bool:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from discrete.singly import resisted
 from discrete.unknowns import AXIAL, N_NODE, SPIN
 
 if TYPE_CHECKING:
@@ -51,17 +52,33 @@ class Touched:
 
     def change(self, d: Array) -> Array:
         """Change of forces and moments with increments of all nodes, shape (n_nodes, 7) both."""
+        d = np.ascontiguousarray(d)
         if self.links is not None:
             change = self.links.change(d)
-            return change if self.firm is None else change + self.firm.change(d)
+            if self.firm is not None:
+                resisted(self.firm.nodes, self.firm.blocks, d, change)
+            return change
         change = np.zeros_like(d)
-        change[self.nodes, :AXIAL] = -np.matmul(self.blocks, d[self.nodes, :AXIAL, None])[:, :, 0]
+        resisted(self.nodes, self.blocks, d, change)
         return change
+
+    def mark(self, some: NDArray[np.bool_]) -> None:
+        """Mark all nodes of these, shape (n_nodes,), that answer."""
+        some[self.nodes] = True
+        if self.firm is not None:
+            some[self.firm.nodes] = True
+        for coupling in () if self.links is None else self.links.couplings:
+            some[coupling.nodes] = True
 
     @property
     def askew(self) -> Indices:
         """Nodes whose resistance does not turn with their sections: surfaces stay where they are."""
         return self.nodes if self.firm is None else self.firm.nodes
+
+    @property
+    def meets(self) -> bool:
+        """Whether any rods touch one another."""
+        return self.links is not None and len(self.links.couplings) > 0
 
     def alone(self) -> Touched:
         """What nodes do to themselves only."""

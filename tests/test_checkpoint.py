@@ -581,7 +581,7 @@ def test_a_start_that_is_no_part_of_the_motion_is_refused():
 @pytest.mark.serial
 def test_a_motion_that_fails_says_what_to_try():
     """A jerk that no step resolves."""
-    burst = dr.FollowerForce((0.0, 1e12, 0.0), "end")
+    burst = dr.FollowerForce((0.0, 1e15, 0.0), "end")
     scene = dr.Scene([SKEW.straight(SECTION)], [dr.Clamp("start")], [burst], motion=dr.Dynamic(1.0, dt=0.5))
     with pytest.raises(dr.NotConverged, match=r"Try Dynamic\(dt=0\.25\), more elements") as caught:
         PLANAR.solve(scene)

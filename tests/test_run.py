@@ -137,7 +137,7 @@ def test_second_run_installs_nothing_until_the_project_changes(machine):
     installed = machine.calls
     assert first.returncode == 0
     assert [call for call in installed if "pip install" in call and "--no-deps" in call]
-    assert "-m dolfinrod.continuum.precompile" in installed
+    assert {"-m dolfinrod.continuum.precompile", "-m dolfinrod.groove.precompile"} <= set(installed)
     second = machine.run("shell", "-c", "exit 0")
     assert (second.returncode, second.stdout, second.stderr) == (0, "", "")
     assert machine.calls == installed
@@ -161,7 +161,6 @@ def test_failed_set_up_is_tried_again(machine):
         (["report", "--quick"], "-m verification --quick"),
         (["test", "-k", "elastica"], "-m pytest --numprocesses=auto --maxprocesses=4 -k elastica"),
         (["report", "elastica*", "--out", "there"], "-m verification elastica* --out there"),
-        (["compile", "4", "5"], "-m dolfinrod.continuum.precompile 4 5"),
         (["test", "--all", "-x"], "-m pytest --numprocesses=auto --maxprocesses=4 -m  -x"),
     ],
 )
@@ -169,6 +168,12 @@ def test_commands_go_to_the_python_of_the_virtual_environment(machine, arguments
     machine.fake("dpkg-query", ALL_INSTALLED)
     assert machine.run(*arguments).returncode == 0
     assert machine.calls[-1] == asked
+
+
+def test_compile_makes_forms_of_the_degrees_asked_for_and_kernels(machine):
+    machine.fake("dpkg-query", ALL_INSTALLED)
+    assert machine.run("compile", "4", "5").returncode == 0
+    assert machine.calls[-2:] == ["-m dolfinrod.continuum.precompile 4 5", "-m dolfinrod.groove.precompile"]
 
 
 def test_a_browser_is_installed_for_all_tests_only(machine):

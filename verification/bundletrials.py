@@ -7,20 +7,25 @@ from functools import partial
 
 from verification.bundles import FEW, MOST, Bundle, measured, on_ranks
 from verification.ledger import Unit
+from verification.scaling import ensembles, scaled
 
-__all__ = ["BUNDLES", "listing", "names", "units"]
+__all__ = ["BUNDLES", "LONG", "listing", "names", "units"]
 
-# Chosen like a family; one model as "bundles:MODEL", the ranks as "bundles:ranks".
-BUNDLES, RANKS = "bundles", "bundles:ranks"
+# Chosen like a family; one model as "bundles:MODEL", the ranks as "bundles:ranks" and "bundles:scaling".
+BUNDLES, RANKS, SCALING = "bundles", "bundles:ranks", "bundles:scaling"
+# The same with as many steps as cost asks for: hours, so only where it is asked for by name.
+LONG = "bundles-long"
 # The paper's elements, and cubic ones with three quarters as many nodes, whose errors are far smaller.
 MODELS = (Bundle("discrete", 80), Bundle("continuum", 20, 3))
 FIBRES, QUICK_FIBRES = (2, FEW, 10, 20, MOST), (2, FEW)
-STEPS, QUICK_STEPS, RANK_STEPS = 200, 20, 20
+STEPS, QUICK_STEPS, LONG_STEPS = 20, 20, 200
+# Of the ensemble: bundles, and steps of each.
+RUNS, RUN_STEPS = 10, 400
 
 
 def names() -> tuple[str, ...]:
     """Whatever may be asked for by name."""
-    return (BUNDLES, *(asked_as(who) for who in MODELS), RANKS)
+    return (BUNDLES, *(asked_as(who) for who in MODELS), RANKS, SCALING, LONG)
 
 
 def asked_as(who: Bundle) -> str:
@@ -35,8 +40,11 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     for who in MODELS:
         if {BUNDLES, asked_as(who)} & set(asked):
             yield f"  {asked_as(who)}", f"{FIBRES[0]} to {MOST} fibres by the {who.model} model"
-    if {BUNDLES, RANKS} & set(asked):
-        yield f"  {RANKS}", "the same bundle on one rank and on two"
+    for name, words in ((RANKS, "the same bundle on one rank and on two"), (SCALING, "how much quicker ranks are")):
+        if {BUNDLES, name} & set(asked):
+            yield f"  {name}", words
+    if LONG in asked:
+        yield LONG, f"the same with {LONG_STEPS} steps each, which takes hours"
 
 
 def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
@@ -49,14 +57,30 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     Yields:
         Units in the order of the report.
     """
-    fibres, steps = (QUICK_FIBRES, QUICK_STEPS) if quick else (FIBRES, STEPS)
+    wanted = set(asked)
     for who in MODELS:
-        if {BUNDLES, asked_as(who)} & set(asked):
-            key = (who.model, who.mesh, steps, *fibres)
-            yield Unit("bundle", f"Bundles: {who.model}", key, partial(measured, who, fibres, steps))
-    if quick or not {BUNDLES, RANKS} & set(asked):
-        return
-    who = MODELS[-1]
-    for n in (FEW, MOST):
-        key = (who.mesh, n, RANK_STEPS)
-        yield Unit("bundle", f"Bundle of {n} on two ranks", key, partial(on_ranks, who, n, RANK_STEPS))
+        if {BUNDLES, asked_as(who)} & wanted:
+            yield _growth(who, QUICK_FIBRES if quick else FIBRES, QUICK_STEPS if quick else STEPS)
+        if LONG in wanted:
+            yield _growth(who, FIBRES, LONG_STEPS)
+    if not quick and {BUNDLES, RANKS} & wanted:
+        who = MODELS[-1]
+        for n in (FEW, MOST):
+            work = partial(on_ranks, who, n, STEPS)
+            yield Unit("bundle", f"Bundle of {n} on two ranks", (who.mesh, n, STEPS), work)
+    if not quick and {BUNDLES, SCALING} & wanted:
+        yield _scaling(STEPS)
+        words, runs = f"Ensemble of {RUNS} on two ranks", partial(ensembles, RUNS, RUN_STEPS)
+        yield Unit("bundle", words, ("ensembles", RUNS, RUN_STEPS), runs)
+    if LONG in wanted:
+        yield _scaling(LONG_STEPS)
+
+
+def _growth(who: Bundle, fibres: tuple[int, ...], steps: int) -> Unit:
+    key: tuple[str | int, ...] = (who.model, who.mesh, steps, *fibres)
+    return Unit("bundle", f"Bundles: {who.model}, {steps} steps", key, partial(measured, who, fibres, steps))
+
+
+def _scaling(steps: int) -> Unit:
+    words = f"Scaling of a bundle of {MOST}, {steps} steps"
+    return Unit("bundle", words, ("scaling", MOST, steps), partial(scaled, MOST, steps))

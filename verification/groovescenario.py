@@ -9,10 +9,12 @@ from tempfile import TemporaryDirectory
 from dolfinrod.groove import Scenario, ensemble, variant
 from dolfinrod.scene import Penalty
 
-__all__ = ["SEEDS", "SETTINGS", "GrooveEnsemble", "Setting", "gathered", "setting"]
+__all__ = ["SEEDS", "SETTINGS", "GrooveEnsemble", "Setting", "gathered", "setting", "small"]
 
 # Bundles of an ensemble, and of those that ask for no statistics.
 SEEDS, FEW = 10, 3
+# Of small bundles: fibres, elements by which theirs are longer, and the time they take to lie in the groove [s].
+SMALL, COARSER, GATHERED = 3, 4, 1.5e-3
 # Not fewer are judged.
 QUICK_SEEDS = 2
 LATERAL, INTERMEDIATE = Scenario("lateral"), Scenario("intermediate")
@@ -40,6 +42,10 @@ class Setting:
     scenario: Scenario = field(repr=False)
     seeds: int = SEEDS
     quick: bool = False
+
+    def small(self) -> Setting:
+        """The same for a report."""
+        return replace(self, scenario=small(self.scenario))
 
     def hurried(self) -> Setting:
         """The same for a quick run: a blink of two fibres and few elements, which shows that it runs, no more."""
@@ -105,6 +111,12 @@ class GrooveEnsemble:
     def words(self) -> str:
         """For a list of misses."""
         return f"Bundles in the groove: {self.title}: {len(self.failed)} of {self.seeds} runs failed, {self.failed[0]}"
+
+
+def small(scenario: Scenario) -> Scenario:
+    """Fewer fibres on longer elements, until they lie in the groove."""
+    elements, t_end = scenario.elements // COARSER, min(scenario.t_end, GATHERED)
+    return replace(scenario, fibres=SMALL, elements=elements, t_end=t_end)
 
 
 def setting(name: str) -> Setting:

@@ -10,15 +10,17 @@ from dolfinrod.groove import Scenario
 from dolfinrod.groove.paper import MESHES, READINGS
 from dolfinrod.groove.scenario import MODELS
 from verification.groovepaper import as_printed
-from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, gathered
+from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, gathered, small
 from verification.groovescenariobeside import brief, by_both, with_image
 from verification.ledger import Unit
 
-__all__ = ["PAPER", "SCENARIOS", "listing", "names", "units"]
+__all__ = ["ACCEPTANCE", "PAPER", "SCENARIOS", "listing", "names", "units"]
 
 # Chosen like families; an ensemble as "groove-scenarios:NAME".
 SCENARIOS, PAPER = "groove-scenarios", "groove-paper"
 BESIDE, IMAGE = f"{SCENARIOS}:models", f"{SCENARIOS}:image"
+# Ensembles of the whole bundle on the paper's elements to its end: hours, so only where it is asked for by name.
+ACCEPTANCE = "groove-acceptance"
 # Of the paper, in which its fibres fall onto the walls.
 STEPS, QUICK_STEPS = 400, 3
 # Until fibres touch one another, and a little on; states are stored as often as that takes to see [s].
@@ -27,7 +29,7 @@ UNTIL, STORED = 1e-3, 1e-5
 
 def names() -> tuple[str, ...]:
     """Whatever may be asked for by name."""
-    return (SCENARIOS, *map(asked_as, SETTINGS), BESIDE, IMAGE, PAPER)
+    return (SCENARIOS, *map(asked_as, SETTINGS), BESIDE, IMAGE, ACCEPTANCE, PAPER)
 
 
 def asked_as(one: Setting) -> str:
@@ -44,6 +46,8 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     if chosen:
         yield SCENARIOS, "bundles in the groove: what they should show"
     yield from ((f"  {name}", words) for name, words in chosen.items())
+    if ACCEPTANCE in wanted:
+        yield ACCEPTANCE, "the same with whole bundles to their ends, which takes hours"
     if PAPER in wanted:
         yield PAPER, "the paper's groove as printed, in each reading of its units"
 
@@ -60,33 +64,39 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     """
     for one in SETTINGS:
         if {SCENARIOS, asked_as(one)} & set(asked) and (one.quick or not quick):
-            posed = one.hurried() if quick else one
-            key = (
-                "ensemble",
-                one.name,
-                posed.seeds,
-                posed.scenario.fibres,
-                posed.scenario.elements,
-                posed.scenario.t_end,
-            )
-            yield Unit("groove scenario", f"Bundles: {one.words}", key, partial(gathered, posed))
+            yield _ensemble(one.hurried() if quick else one.small())
     yield from _alone(set(asked), quick)
+    for one in SETTINGS if ACCEPTANCE in asked else ():
+        yield _ensemble(one)
+    for scenario in (LATERAL, INTERMEDIATE) if ACCEPTANCE in asked else ():
+        yield _by_both(scenario)
     if PAPER in asked:
         yield from _paper(QUICK_STEPS if quick else STEPS, quick=quick)
+
+
+def _ensemble(one: Setting) -> Unit:
+    """All its runs."""
+    posed = one.scenario
+    key = ("ensemble", one.name, one.seeds, posed.fibres, posed.elements, posed.t_end)
+    return Unit("groove scenario", f"Bundles: {one.words}", key, partial(gathered, one))
 
 
 def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:
     """Single bundles: by both models, and beside their images."""
     for scenario in (LATERAL, INTERMEDIATE) if {SCENARIOS, BESIDE} & asked else ():
-        posed = brief(scenario) if quick else scenario
-        words = f"One bundle by both models: {posed.kind}"
-        yield Unit("groove scenario", words, ("models", posed.kind, posed.fibres, posed.t_end), partial(by_both, posed))
+        # On the paper's elements, as the difference that is allowed is that of these.
+        yield _by_both(brief(scenario) if quick else replace(small(scenario), elements=scenario.elements))
     for model in MODELS if {SCENARIOS, IMAGE} & asked else ():
-        posed = brief(LATERAL) if quick else _short(LATERAL)
+        posed = brief(LATERAL) if quick else _short(small(LATERAL))
         words = f"A bundle and its mirror image: {model}"
         yield Unit(
             "groove scenario", words, ("image", model, posed.fibres, posed.t_end), partial(with_image, posed, model)
         )
+
+
+def _by_both(posed: Scenario) -> Unit:
+    words = f"One bundle by both models: {posed.kind}"
+    return Unit("groove scenario", words, ("models", posed.kind, posed.fibres, posed.t_end), partial(by_both, posed))
 
 
 def _short(scenario: Scenario) -> Scenario:

@@ -49,6 +49,7 @@ from verification.ranks import RankRow
 from verification.references import Peer
 from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
+from verification.scaling import EnsembleScaling, Scaling
 from verification.shape import Shape
 from verification.speed import Speed
 from verification.stability import Bracket, EigenStudy
@@ -59,10 +60,11 @@ __all__ = ["Ledger", "Unit", "source_hash"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
 Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | RankRow | TopStudy
+Shared = EnsembleScaling | Scaling
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
 Gathered = GrooveEnsemble | GrooveImage | GrooveModels | PaperRun
 Other = Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study | TwistStudy
-Row = Trial | Moved | Touched | Gathered | Cost | Other
+Row = Trial | Moved | Shared | Touched | Gathered | Cost | Other
 PARTS = (
     Attempt,
     BundleCost,

@@ -81,7 +81,7 @@ def selected(names: Iterable[str]) -> tuple[str, ...]:
     """Names that the given ones stand for.
 
     Args:
-        names: Of cases or families, shell-style wildcards allowed; empty: everything.
+        names: Of cases or families, shell-style wildcards allowed; empty: everything but what takes hours.
 
     Returns:
         Names out of `known()`.
@@ -95,7 +95,9 @@ def selected(names: Iterable[str]) -> tuple[str, ...]:
             close = get_close_matches(name, known(), n=3, cutoff=0.5)
             hint = f"did you mean {' or '.join(close)}?" if close else "--list shows what there is"
             raise SceneError(f"no case or family is called {name}; {hint}")
-    return tuple(word for word in known() if not names or any(fnmatchcase(word, name) for name in names))
+    if not names:
+        return tuple(word for word in known() if word not in trials.HOURS)
+    return tuple(word for word in known() if any(fnmatchcase(word, name) for name in names))
 
 
 def plan(names: tuple[str, ...], *, quick: bool) -> tuple[Unit, ...]:

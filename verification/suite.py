@@ -34,6 +34,7 @@ from verification.ranks import RankRow
 from verification.reach import Reach, reaches
 from verification.rigid import TopStudy
 from verification.robustness import OneStepLoads, Steps
+from verification.scaling import EnsembleScaling, Scaling
 from verification.speed import Speed
 from verification.stability import Bracket, EigenStudy
 from verification.statement import Statement, statement
@@ -48,8 +49,9 @@ __all__ = ["Missed", "Report", "report"]
 
 Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Share | Steps
 Moved = BundleRanks | BundleStudy | DriftStudy | Cost | FrequencyStudy | MotionStudy | PaperFibre | RankRow | TopStudy
+Shared = EnsembleScaling | Scaling
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide | Gathered
-Missed = Trial | Moved | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow | TwistStudy
+Missed = Trial | Moved | Shared | Touched | Cell | Check | CrossCheck | ExplicitLimit | LawRow | MotionRow | TwistStudy
 # Fields of the report that are the rows of a topic, as they come.
 AS_FOUND = {
     "one_step": "one step",
@@ -108,7 +110,7 @@ class Report:
         drifts: What a free rod keeps.
         fibres: The paper's fibre in its own steps.
         paces: Milliseconds a step.
-        bundles: What more and more fibres cost, and on one rank and on two.
+        bundles: What more and more fibres cost, on one rank and on two, and how much quicker ranks are.
         ranks: Kinds of scenes on one rank and on two.
         costs: Of iterations, also on finer and finer meshes, and of whole processes.
         tops: Rigid bodies by each rotation integrator.
@@ -151,7 +153,7 @@ class Report:
     drifts: tuple[DriftStudy, ...] = ()
     fibres: tuple[PaperFibre, ...] = ()
     paces: tuple[Pace, ...] = ()
-    bundles: tuple[BundleStudy | BundleRanks, ...] = ()
+    bundles: tuple[BundleStudy | BundleRanks | Shared, ...] = ()
     ranks: tuple[RankRow, ...] = ()
     costs: tuple[Cost, ...] = ()
     contenders: tuple[Contender, ...] = ()

@@ -221,13 +221,14 @@ class BoundForm:
 
 
 def add_entries(
-    A: PETSc.Mat, rows: NDArray[np.int32], columns: NDArray[np.int32], values: NDArray[np.float64] | float
+    A: PETSc.Mat, rows: NDArray[np.integer], columns: NDArray[np.integer], values: NDArray[np.float64] | float
 ) -> None:
     """Add single entries, given in local numbers, to a matrix."""
     if len(rows):
         pointers = np.arange(len(rows) + 1, dtype=np.int32)
         filled = np.broadcast_to(np.asarray(values, dtype=float), rows.shape)
-        A.setValuesLocalIJV(pointers, columns, filled, addv=PETSc.InsertMode.ADD_VALUES, rowmap=rows)
+        I, J = rows.astype(np.int32, copy=False), columns.astype(np.int32, copy=False)
+        A.setValuesLocalIJV(pointers, J, filled, addv=PETSc.InsertMode.ADD_VALUES, rowmap=I)
 
 
 def without_zeros(A: PETSc.Mat) -> PETSc.Mat:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,8 +24,10 @@ __all__ = ["Chord"]
 SLOW = 0.03
 # A tangent that has served makes increments smaller by more than this, until round-off is what is left.
 STALLED = 0.1
-# A new tangent costs about as much as this many iterations with an old one.
-DEAR = 2
+# A new tangent costs as much as so many iterations with an old one: of few unknowns, where each call has its price, of
+# very many, and how many lie halfway between. To the end it takes so many itself.
+DEAR, DEAREST, HALFWAY = 2.0, 7.0, 1500
+QUADRATIC = 2
 # First increment that an old tangent may find, in L, rad and forces over themselves.
 LARGEST = 1.0
 # Steps that differ by less than this part have the same tangent, but for terms of that size.
@@ -47,7 +50,9 @@ class Chord(Newton):
         super().__init__(problem)
         self._h = np.nan
         self._when_new = self._excess = 0
-        self._serves = self._is_fresh = self._stalls = self._contracted = False
+        n = problem.discretization.n_dofs
+        self._dear = DEAR + (DEAREST - DEAR) * n / (n + HALFWAY)
+        self._serves = self._is_fresh = self._stalls = self._contracted = self._lags = self._inherited = False
 
     def solve(self, last: NDArray[np.float64] | None = None) -> Outcome:
         """State after the step that the problem has begun."""
@@ -65,7 +70,7 @@ class Chord(Newton):
         if is_new:
             self._when_new, self._excess = outcome.iterations, 0
         self._excess += max(outcome.iterations - self._when_new, 0)
-        self._serves = self._serves and outcome.converged and self._excess < DEAR
+        self._serves = self._serves and outcome.converged and self._excess < self._dear
 
     def _watched(self, last: NDArray[np.float64] | None) -> Unwatched:
         return Unwatched()
@@ -88,13 +93,25 @@ class Chord(Newton):
 
     def _expected(self, before: float, size: float) -> float:
         """Next increment after these two, in the ratio of them, which may be small by chance; or a smaller one."""
-        if not np.isfinite(before) or not before > 0.0:
+        if not isfinite(before) or not before > 0.0:
+            # The tangent of the step before does for one increment, even if it did not pay to go on with it last time.
+            self._inherited = not self._is_fresh
+            self._serves = self._is_fresh or not self._lags
             return np.inf
         ratio = size / before
+        pays = self._pays(size, ratio)
+        if self._inherited:
+            self._lags, self._inherited = not pays, False
         self._contracted = self._contracted or ratio <= SLOW
         self._stalls = ratio > STALLED and (self._is_fresh or self._contracted)
-        self._serves = self._is_fresh or ratio <= SLOW or size < TOLERANCE or self._ends or self._meets_anew
+        self._serves = self._is_fresh or pays or size < TOLERANCE or self._ends or self._meets_anew
         return size * max(ratio, size)
+
+    def _pays(self, size: float, ratio: float) -> bool:
+        """Whether a kept tangent, whose increments fall by a ratio, gets to the end at less cost than a new one."""
+        if ratio > SLOW or size <= NEGLIGIBLE:
+            return ratio <= SLOW
+        return size * ratio ** (self._dear + QUADRATIC) <= NEGLIGIBLE
 
     @property
     def _meets_anew(self) -> bool:

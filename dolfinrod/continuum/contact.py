@@ -43,6 +43,8 @@ class Contacts:
 
     Attributes:
         renews: Whether any law has multipliers.
+        sides: The surfaces, each with the nodes that it may touch.
+        r: Centreline dofs of this rank's own nodes, shape (n, d).
     """
 
     def __init__(self, problem: Problem, level: float = 1.0) -> None:
@@ -54,18 +56,18 @@ class Contacts:
         rods = np.zeros(len(problem.x), dtype=np.int64)
         rods[d.dofs["r"][:, :, 0]] = problem.rod[:, None]
         rod, radii = rods[first], np.array([section.radius or 0.0 for section in (r.section for r in scene.rods)])
-        self._sides = []
+        self.sides = []
         for contact in scene.walls:
             nodes = np.flatnonzero(rod == contact.rod) if contact.rod is not None else np.arange(len(rod))
             touch = Touch(contact, radii[rod[nodes]], scene.motion.t_end, level)
-            self._sides.append(Side(touch, nodes, lengths[nodes]))
+            self.sides.append(Side(touch, nodes, lengths[nodes]))
         self.place(0.0)
 
     def place(self, t: float) -> None:
         """The rods are where the state has them; nothing is remembered."""
         x = self._problem.placement.to_space(self._problem.x[self.r])
         self.t, self._q_0 = t, self._problem.x[self.q]
-        for side in self._sides:
+        for side in self.sides:
             side.touch.place(x[side.nodes], t)
         self._seen: Array | None = None
         self._respond()
@@ -73,14 +75,13 @@ class Contacts:
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
         self.t, self._seen = t, None
-        for side in self._sides:
+        for side in self.sides:
             side.touch.begin(t)
-            if self._problem.level == 1.0:
-                side.touch.cling()
+            side.touch.cling()
 
     def glide(self) -> None:
         """Begin the iteration with what slid in the last step sliding on; right after `begin`."""
-        for side in self._sides:
+        for side in self.sides:
             side.touch.glide()
 
     def _respond(self) -> None:
@@ -91,7 +92,7 @@ class Contacts:
             return
         turned = kin.rotation_vector(self._q_0, state[self.q]) if self._rubs else np.zeros((len(self.q), kin.n_spin))
         x, turn = place.to_space(state[self.r]), turned @ place.spin_axes.T
-        for side in self._sides:
+        for side in self.sides:
             side.reply = side.touch.respond(x[side.nodes], turn[side.nodes])
         self._seen = now
 
@@ -104,7 +105,7 @@ class Contacts:
         """
         self._respond()
         place, kin = self._problem.placement, self._problem.kinematics
-        for side in self._sides:
+        for side in self.sides:
             reply, nodes, on = side.reply, side.nodes, np.flatnonzero(side.reply.state)
             if not len(on):
                 continue
@@ -117,7 +118,7 @@ class Contacts:
         """Rows, columns and entries of the tangent by the state after the step; q as for `add_residual`."""
         self._respond()
         place = self._problem.placement
-        for side in self._sides:
+        for side in self.sides:
             change = side.touch.gradient()
             at = side.nodes[change.points]
             if not len(at):
@@ -152,17 +153,17 @@ class Contacts:
     @property
     def pattern(self) -> bytes:
         """Which of this rank's nodes touch, and which of these stick."""
-        return b"".join(side.reply.state.tobytes() for side in self._sides)
+        return b"".join(side.reply.state.tobytes() for side in self.sides)
 
     @property
     def changed(self) -> bool:
         """Whether any node has come to touch, stick or slide, or ceased to, since the answer before the last one."""
-        return self._on_any_rank(any(side.touch.changed for side in self._sides))
+        return self._on_any_rank(any(side.touch.changed for side in self.sides))
 
     @property
     def pierced(self) -> bool:
         """Whether the step has led a rod into or through a wall."""
-        return self._on_any_rank(any(side.touch.pierces() for side in self._sides))
+        return self._on_any_rank(any(side.touch.pierces() for side in self.sides))
 
     def _on_any_rank(self, mine: bool) -> bool:
         return bool(self._problem.discretization.comm.allreduce(mine, op=MPI.LOR))
@@ -170,62 +171,63 @@ class Contacts:
     @property
     def stiffness(self) -> float:
         """That of the stiffest law, in EI/L⁴."""
-        place, laws = self._problem.placement, [side.touch.contact.law for side in self._sides]
+        place, laws = self._problem.placement, [side.touch.contact.law for side in self.sides]
         return float(max(law.eps_N for law in laws) * place.length**4 / place.stiffness)
 
     def soften(self, by: float) -> None:
         """Let all walls be softer by a factor, until the next step begins."""
         self._seen = None
-        for side in self._sides:
+        for side in self.sides:
             side.touch.soften(by)
 
     def foresee(self, r: Array) -> bool:
         """Whether a linear step of the rank's own nodes to r changes what is pressed; the next answer is with that."""
-        each = [side.touch.foresee(self._problem.placement.to_space(r[side.nodes])) for side in self._sides]
+        each = [side.touch.foresee(self._problem.placement.to_space(r[side.nodes])) for side in self.sides]
         changed = self._on_any_rank(any(each))
-        for side in self._sides if changed else ():
-            side.touch.adopt()
-        self._seen = None
+        if changed:
+            self._seen = None
+            for side in self.sides:
+                side.touch.adopt()
         return changed
 
     def renew(self) -> bool:
         """Renew multipliers; whether penetrations were within their tolerances already."""
         self._respond()
         self._seen = None
-        done = [side.touch.renew() for side in self._sides]
+        done = [side.touch.renew() for side in self.sides]
         return not self._on_any_rank(not all(done))
 
     def accept(self) -> list[float]:
         """The step counts; energies that this rank's nodes have rubbed off and were given by walls, in EI/L."""
         self._respond()
         self._q_0, total = self._problem.x[self.q], np.zeros(2)
-        for side in self._sides:
+        for side in self.sides:
             booked = side.touch.accept()
             total += [float(side.share[:, 0] @ part) for part in (booked.rubbed, booked.pushed)]
         return [float(part) / self._problem.placement.moment for part in total]
 
     def stored(self) -> float:
         """Energy that this rank's nodes store, in EI/L."""
-        total = sum(float(side.share[:, 0] @ side.touch.stored()) for side in self._sides)
+        total = sum(float(side.share[:, 0] @ side.touch.stored()) for side in self.sides)
         return total / self._problem.placement.moment
 
     def memory(self) -> Memory:
         """What this rank's nodes remember."""
-        return self.t, self._q_0, [(side.touch.memory(), side.reply) for side in self._sides]
+        return self.t, self._q_0, [(side.touch.memory(), side.reply) for side in self.sides]
 
     def take_back(self, memory: Memory) -> None:
         """Be what `memory` said earlier."""
         self.t, self._q_0, sides = memory
         self._seen = None
-        for side, (remembered, reply) in zip(self._sides, sides, strict=True):
+        for side, (remembered, reply) in zip(self.sides, sides, strict=True):
             side.touch.recall(remembered, self.t)
             side.reply = reply
 
     def kept(self) -> Array:
         """What the nodes remember and feel, by local cell, shape (cells, k + 1, contacts · n_columns)."""
         d, n = self._problem.discretization, sum(COLUMNS.values())
-        table = np.zeros((len(self.r), len(self._sides) * n))
-        for k, side in enumerate(self._sides):
+        table = np.zeros((len(self.r), len(self.sides) * n))
+        for k, side in enumerate(self.sides):
             table[side.nodes, k * n : (k + 1) * n] = packed(self.t, side.touch.memory(), side.reply)
         carrier, by_cell = backend.function(d.space), []
         for column in table.T:
@@ -243,6 +245,6 @@ class Contacts:
         self._q_0, self._seen = self._problem.x[self.q], None
         last = float(self._problem.discretization.comm.allreduce(kept[..., :1].max(initial=0.0), op=MPI.MAX))
         self.t = last if t is None else t
-        for k, side in enumerate(self._sides):
+        for k, side in enumerate(self.sides):
             side.touch.recall(unpacked(table[side.nodes, k * n : (k + 1) * n]), self.t)
         self._respond()

@@ -148,14 +148,15 @@ class Discretization:
             self.tangent = Sum(tangent, self.excess.tangent)
         self.line_load = backend.BoundForm(self.forms.line_load, [self.space], values)
 
-    def owned_nodes(self, field: str) -> NDArray[np.int32]:
+    def owned_nodes(self, field: str) -> NDArray[np.intp]:
         """Dofs of the distinct nodes of a field that this rank owns, shape (nodes, components)."""
         return self._owned[field]
 
-    def _distinct(self, dofs: NDArray[np.int32]) -> NDArray[np.int32]:
+    def _distinct(self, dofs: NDArray[np.int32]) -> NDArray[np.intp]:
         nodes = dofs.reshape(-1, dofs.shape[2])
         nodes = nodes[np.unique(nodes[:, 0], return_index=True)[1]]
-        return nodes[nodes[:, 0] < self.n_owned]
+        # NumPy turns other numbers into these each time that they pick entries, which takes longer than the picking.
+        return nodes[nodes[:, 0] < self.n_owned].astype(np.intp)
 
     def set(self, values: Values) -> None:
         """Give the forms their numbers; nothing is compiled or allocated."""

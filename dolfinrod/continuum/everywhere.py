@@ -48,7 +48,8 @@ class Everywhere:
         self.own = number[self.r[:, 0]]
         every = self._comm.allgather(self.own)
         self._order, self._counts = np.concatenate(every), np.array([len(own) for own in every])
-        numbers = d.matrix.getLGMap()[0].apply(np.concatenate([self.r, self.q], axis=1).ravel())
+        local = np.concatenate([self.r, self.q], axis=1).ravel().astype(np.int32)
+        numbers = d.matrix.getLGMap()[0].apply(local)
         mine = numbers.reshape(len(self.own), -1).astype(float)
         self.dofs = self.gathered(mine).astype(np.int32)
 

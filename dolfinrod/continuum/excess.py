@@ -45,7 +45,8 @@ class Excess:
         values = {forms.coefficients[name]: function for name, function in functions.items()}
         self.residual = backend.BoundForm(forms.residual, [space], values)
         self.tangent = backend.BoundForm(forms.tangent, [space, space], values)
-        self._cells = backend.cell_dofs(self._weights.function_space)[:, 0]
+        self._weighed, self._before = self._weights.x.array, self._x_0.x.array
+        self._cells = backend.cell_dofs(self._weights.function_space)[:, 0].astype(np.intp)
         self.ratio = np.zeros(len(self._cells))
         self.resultants = np.zeros_like(x.x.array)
 
@@ -62,7 +63,7 @@ class Excess:
             ratio: τ/h of every local cell.
             level: Where the forces are taken, as part of the way from that state to the one after the step.
         """
-        self._x_0.x.array[:] = x_0
+        self._before[:] = x_0
         self.ratio = ratio
         self._weigh(ratio + level, 1.0 - level - ratio, 1.0, 1.0 / level)
 
@@ -72,23 +73,23 @@ class Excess:
 
     def step(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """The step behind: the state before it, τ/h and resultants of the rates, copied."""
-        return self._x_0.x.array.copy(), self.ratio.copy(), self.resultants.copy()
+        return self._before.copy(), self.ratio.copy(), self.resultants.copy()
 
     def after(self, step: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]) -> None:
         """Be again at the end of such a step."""
-        self._x_0.x.array[:], self.ratio, self.resultants[:] = step
+        self._before[:], self.ratio, self.resultants[:] = step
         self.end()
 
     def rest(self) -> None:
         """No step, no rates."""
         self.ratio = np.zeros(len(self._cells))
         self.resultants[:] = 0.0
-        self._weights.x.array[:] = 0.0
+        self._weighed[:] = 0.0
 
     def _weigh(self, *weights: NDArray[np.float64] | float) -> None:
         """Weights of the strains after the step, before it and here, and how far on the step leads."""
         for component, weight in enumerate(weights):
-            self._weights.x.array[self._cells[:, component]] = weight
+            self._weighed[self._cells[:, component]] = weight
 
     def rates(self) -> NDArray[np.float64]:
         """Residual of the rates at the current state, summed over all ranks: ∫ ψ τ γ̇ ds and ∫ ψ τ κ̇ ds by N and m."""

@@ -8,7 +8,9 @@ from mpi4py import MPI
 
 import numpy as np
 
+from dolfinrod.continuum.lumped import summed
 from dolfinrod.continuum.strain import Strain
+from dolfinrod.scene import Gravity, LineForce, Steady
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -38,6 +40,14 @@ class Ledger:
     def __init__(self, problem: Moving) -> None:
         self._problem, self._strain = problem, Strain(problem)
         self.rows: list[dict[str, float]] = []
+        held = problem.constraints.dofs
+        self._held = held[held < problem.discretization.n_owned].astype(np.intp)
+        lines = [load for load in problem.scene.loads if isinstance(load, Gravity | LineForce)]
+        self._weights = [
+            summed(problem, vector)[: problem.discretization.n_owned]
+            for load, (history, vector) in zip(lines, problem.line_loads, strict=True)
+            if isinstance(load, Gravity) and isinstance(history, Steady)
+        ]
         self._stored = STORED if problem.contacts is None else (*STORED, "contact")
         self._now = dict(zip(self._stored, self._summed(self._energies()), strict=True))
         rubbing = () if problem.contacts is None else ("friction", "wall work")
@@ -65,10 +75,8 @@ class Ledger:
         problem, before = self._problem, self._now
         change = problem.change()
         parts = self._forces()
-        held = problem.constraints.dofs
-        held = held[held < problem.discretization.n_owned]
-        resisted = [float(part @ change) for part in parts]
-        pushed = float(np.sum(parts, axis=0)[held] @ change[held])
+        resisted = parts @ change
+        pushed = parts[:, self._held].sum(axis=0) @ change[self._held]
         rubbed = [0.0, 0.0] if problem.contacts is None else problem.contacts.accept()
         sums = self._summed([*self._energies(), *resisted, pushed, self._strain.dissipated, *rubbed])
         self._now = dict(zip(self._stored, sums, strict=False))
@@ -84,21 +92,21 @@ class Ledger:
             self._works["wall work"] += walls
             self._works["numerical"] += gained["contact"] - contact + rubbed_off - walls
 
-    def _forces(self) -> list[Array]:
-        """Residuals of the step's parts at this rank's own dofs, along the sphere of the balance."""
+    def _forces(self) -> Array:
+        """Residuals of the step's parts at this rank's own dofs, along the sphere of the balance, shape (5, n)."""
         problem = self._problem
         q, p, n = problem.lumped.q, problem.side(), problem.discretization.n_owned
-        arrays = [b[:n].copy() for b in problem.parts]
+        forces = problem.parts[:, :n].copy()
         if p.shape[1] == 4:
-            for b in arrays:
-                b[q] -= np.einsum("ni,ni->n", p, b[q])[:, None] * p
-        return arrays
+            along = forces[:, q]
+            forces[:, q] = along - np.einsum("kni,ni->kn", along, p)[:, :, None] * p
+        return forces
 
     def _summed(self, mine: list[float]) -> list[float]:
         """Each number, added up over all ranks."""
         sums = np.array(mine)
         self._problem.discretization.comm.Allreduce(MPI.IN_PLACE, sums)
-        return [float(number) for number in sums]
+        return list(sums.tolist())
 
     def _energies(self) -> list[float]:
         """What this rank stores, in the order of `STORED`."""
@@ -107,4 +115,8 @@ class Ledger:
         kinetic = 0.5 * float(lumped.m @ np.einsum("ni,ni->n", problem.motion.v, problem.motion.v))
         kinetic += 0.5 * float(np.vdot(body, np.einsum("nij,nj->ni", lumped.J_inverse, body)))
         touched = [] if problem.contacts is None else [problem.contacts.stored()]
-        return [kinetic, self._strain.settle(), problem.potential(), *touched]
+        return [kinetic, self._strain.settle(), self._potential(), *touched]
+
+    def _potential(self) -> float:
+        """This rank's part of the potential energy of the weights that always act in full, zero at the origin."""
+        return sum(float(vector @ self._problem.x[: len(vector)]) for vector in self._weights)

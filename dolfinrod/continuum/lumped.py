@@ -15,13 +15,15 @@ from dolfinrod.continuum import backend, reference
 from dolfinrod.continuum.mass import inertia
 
 if TYPE_CHECKING:
+    from petsc4py import PETSc
+
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.problem import Problem
 
     Array = NDArray[np.float64]
 
-__all__ = ["Lumped", "node_lengths", "summed"]
+__all__ = ["Lumped", "NodeBlocks", "node_lengths", "summed"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,8 +39,8 @@ class Lumped:
         second: Unit of time √(ρA L⁴/EI) [s].
     """
 
-    r: NDArray[np.int32]
-    q: NDArray[np.int32]
+    r: NDArray[np.intp]
+    q: NDArray[np.intp]
     m: Array
     J: Array
     J_inverse: Array
@@ -62,7 +64,7 @@ class Lumped:
         r, q = d.owned_nodes("r"), d.owned_nodes("q")
         first = d.dofs["r"][mine][:, :, 0], d.dofs["q"][mine][:, :, 0]
 
-        def gathered(at: NDArray[np.int32], values: Array, nodes: NDArray[np.int32]) -> Array:
+        def gathered(at: NDArray[np.int32], values: Array, nodes: NDArray[np.intp]) -> Array:
             local = np.zeros(len(problem.x))
             np.add.at(local, at, values)
             return summed(problem, local)[nodes[:, 0]]
@@ -73,6 +75,26 @@ class Lumped:
         second = float(np.sqrt(rhoA.max() * place.length**4 / place.stiffness))
         J_nodes = np.moveaxis(np.array(entries), 2, 0)
         return cls(r, q, m, J_nodes, np.linalg.pinv(J_nodes, hermitian=True), second)
+
+
+class NodeBlocks:
+    """Where blocks of single nodes lie in a tangent, found once.
+
+    Args:
+        problem: Knows which dofs are held: their rows and columns are left out.
+        places: Rows and columns of each kind of block, shapes (n, i) and (n, j).
+    """
+
+    def __init__(self, problem: Problem, places: list[tuple[NDArray[np.intp], NDArray[np.intp]]]) -> None:
+        I = np.concatenate([np.repeat(rows, columns.shape[1], axis=1).ravel() for rows, columns in places])
+        J = np.concatenate([np.tile(columns, (1, rows.shape[1])).ravel() for rows, columns in places])
+        self._kept = np.flatnonzero(~(problem.excluded[I] | problem.excluded[J]))
+        self._rows, self._columns = I[self._kept].astype(np.int32), J[self._kept].astype(np.int32)
+
+    def add(self, A: PETSc.Mat, blocks: list[Array]) -> None:
+        """Add blocks of each kind, shapes (n, i, j), row by row."""
+        values = np.concatenate([block.ravel() for block in blocks])
+        backend.add_entries(A, self._rows, self._columns, values[self._kept])
 
 
 def summed(problem: Problem, local: Array) -> Array:

@@ -10,11 +10,10 @@ import numpy as np
 
 from dolfinrod.continuum import backend
 from dolfinrod.continuum.drag import Drag
-from dolfinrod.continuum.lumped import Lumped, summed
+from dolfinrod.continuum.lumped import Lumped, NodeBlocks
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.problem import Problem
 from dolfinrod.continuum.turning import NoTurning, Turning
-from dolfinrod.scene import Gravity, LineForce, Steady
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -45,7 +44,7 @@ class Moving(Problem):
 
     Attributes:
         lumped: Masses of the nodes.
-        parts: Residuals of inertia, elasticity, loads, air and contact in the last step, on all local dofs.
+        parts: Residuals of inertia, elasticity, loads, air and contact in the last step, shape (5, local dofs).
         motion: How the nodes move.
         turns: Whether any section has rotary inertia, on any rank.
     """
@@ -58,24 +57,19 @@ class Moving(Problem):
         self._before, self._start = self.x.copy(), self.motion
         self.turns = discretization.comm.allreduce(bool(self.lumped.J.any()), op=MPI.LOR)
         self._turning = (Turning if self.turns else NoTurning)(self.kinematics, scheme, self.lumped.J)
-        lines = [load for load in scene.loads if isinstance(load, Gravity | LineForce)]
-        self._weights = [
-            summed(self, vector)
-            for load, (history, vector) in zip(lines, self.line_loads, strict=True)
-            if isinstance(load, Gravity) and isinstance(history, Steady)
-        ]
         self._drag = None if scene.air is None else Drag(self, scene.air)
-        self._parts = [backend.function(discretization.space) for _ in range(5)]
-        self.parts = [part.x.array for part in self._parts]
+        self.parts, self._carrier = np.zeros((5, len(self.x))), backend.function(discretization.space)
+        self._acts = slice(3 if self._drag is None and self.contacts is None else 5)
         self._is_held = np.isin(np.arange(len(self.x)), self.constraints.dofs)
         self._set_levels()
+        self._set_blocks()
 
     def _set_levels(self) -> None:
         """Weights of the states before and after a step in the one at which forces act: no multipliers there."""
         d, level = self.discretization, self.scheme.level
-        self._nodal = np.unique(np.concatenate([d.dofs[f].ravel() for f in ("r", "q")]))
-        self._quaternions = np.unique(d.dofs["q"].reshape(-1, d.dofs["q"].shape[2]), axis=0)
-        self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
+        self._nodal = np.unique(np.concatenate([d.dofs[f].ravel() for f in ("r", "q")])).astype(np.intp)
+        self._quaternions = np.unique(d.dofs["q"].reshape(-1, d.dofs["q"].shape[2]), axis=0).astype(np.intp)
+        self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32))).astype(np.intp)
         self._after_part, self._before_part = np.ones(len(self.x)), np.zeros(len(self.x))
         self._after_part[self._nodal], self._before_part[self._nodal] = level, 1.0 - level
         self._after_part[self._multipliers] = 0.0
@@ -83,37 +77,50 @@ class Moving(Problem):
         self._shrink.set(1.0)
         self._shrink.array[np.concatenate([self.lumped.r.ravel(), self.lumped.q.ravel()])] = level
 
+    def _set_blocks(self) -> None:
+        """Where inertia, and the conditions of a mean state, enter the tangent."""
+        r, q = self.lumped.r.reshape(-1, 1), self.lumped.q
+        places = [(r, r), (q, q)]
+        if self.scheme.level != 1.0 and self._lumped is not None:
+            rows, λ = self._unit
+            places += [(rows, λ[:, None]), (λ[:, None], rows)]
+        self._blocks = NodeBlocks(self, places)
+
     def begin_step(self, t: float, dt: float) -> None:
         """Put the supports at the end of a step from t on, and the loads where the scheme has them [s]."""
         self._before[:] = self.x
         self._start = self.motion
         self.h = dt / self.lumped.second
         self.discretization.begin_step(self._before, dt, self.scheme.level)
-        self.advance_to(t + self.scheme.level * dt)
+        self.t = t + self.scheme.level * dt
+        self._acting = [build(self.t) for build in self._point_terms]
         self.x[self.constraints.dofs] = self.constraints.values(t + dt)
         if self.contacts is not None:
             self.contacts.begin(t + dt)
         self._r_0 = self._before[self.lumped.r]
+        self._per_step = 1.0 / (self.scheme.level * self.h)
+        self._m_per_step = (self._per_step * self.lumped.m)[:, None]
         self._turning.begin(self._before[self.lumped.q], self._start.π, self.h)
         self._from_before = self._before_part * self._before
 
     def add_residual(self, b: Array) -> None:
-        """Add this rank's residual of the step to the local array b."""
-        self._add_apart(b, b, b, b, b)
+        """Add this rank's residual of the step to the local array b; `parts` keeps what it is made of."""
+        self.parts[self._acts] = 0.0
+        self._add_apart(*self.parts)
+        b += self.parts[self._acts].sum(axis=0)
 
     def _add_apart(self, inertia: Array, elastic: Array, loads: Array, drag: Array, contact: Array) -> None:
         """Add this rank's residuals of inertia, elasticity, loads, air and contact, each to its own local array."""
-        lumped, rate = self.lumped, self._rate()
-        per_step = 1.0 / (self.scheme.level * self.h)
-        inertia[lumped.r] += (per_step * lumped.m)[:, None] * (rate - self._start.v)
-        inertia[lumped.q] += per_step * self._turning.residual(self.x[lumped.q])
+        r, q, rate = self.lumped.r, self.lumped.q, self._rate()
+        inertia[r] = self._m_per_step * (rate - self._start.v)
+        inertia[q] = self._per_step * self._turning.residual(self.x[q])
         self._add_elastic(elastic)
         at = self._acting_at() if self._acting or self._drag is not None or self.contacts is not None else self.x
         self.add_loads(loads, at)
         if self._drag is not None:
-            drag[lumped.r] -= self._drag.force(at[lumped.r], at[lumped.q], rate, self.t)
+            drag[r] -= self._drag.force(at[r], at[q], rate, self.t)
         if self.contacts is not None:
-            self.contacts.add_residual(contact, at[lumped.q])
+            self.contacts.add_residual(contact, at[q])
 
     def _add_elastic(self, b: Array) -> None:
         """Add the residual of the forms, at the state at which forces act."""
@@ -138,11 +145,6 @@ class Moving(Problem):
         moved = np.zeros(len(self.x))
         moved[self._nodal] = self.x[self._nodal] - self._before[self._nodal]
         return moved[: self.discretization.n_owned]
-
-    def potential(self) -> float:
-        """This rank's part of the potential energy of the weights that always act in full, zero at the origin."""
-        n = self.discretization.n_owned
-        return sum(float(vector[:n] @ self.x[:n]) for vector in self._weights)
 
     def _between(self, after: Array) -> Array:
         """The state in the forms: positions and rotations between, resultants as they are, no multipliers."""
@@ -182,14 +184,12 @@ class Moving(Problem):
             self.x[:] = self._between(after)
         super().assemble_tangent(A, on_sphere=on_sphere)
         self.x[:] = after
-        r, q, h = self.lumped.r, self.lumped.q, self.h
+        r, q = self.lumped.r, self.lumped.q
         if self.scheme.level != 1.0:
             A.diagonalScale(None, self._shrink)
-            self._add_conditions(A)
-        per_step = 1.0 / (self.scheme.level * h)
-        mass = (per_step / h * self.lumped.m)[:, None, None] * np.eye(r.shape[1])
-        backend.add_entries(A, *self.entries(r, r, mass))
-        backend.add_entries(A, *self.entries(q, q, per_step * self._turning.tangent(after[q])))
+        mass = np.repeat(self._m_per_step / self.h, r.shape[1])
+        blocks = [mass, self._per_step * self._turning.tangent(after[q])]
+        self._blocks.add(A, blocks + self._condition_blocks())
         if self._drag is not None:
             self._add_drag(A, self._drag)
         if self.contacts is not None:
@@ -209,17 +209,14 @@ class Moving(Problem):
         backend.add_entries(A, *self.entries(r, r, -by_rate / self.h))
         backend.add_entries(A, *self.entries(r, q, -self.scheme.level * by_q))
 
-    def _add_conditions(self, A: PETSc.Mat) -> None:
+    def _condition_blocks(self) -> list[Array]:
         """Unit norm after the step, its multiplier along the rotation before, where the form has both between."""
-        if self._lumped is None:
-            return
-        q, λ = self._unit
+        if self.scheme.level == 1.0 or self._lumped is None:
+            return []
+        q, _ = self._unit
         before, after = self._before[q], self.x[q]
-        between = 0.5 * (before + after)
-        w = self._lumped[:, None]
-        rows = λ[:, None]
-        backend.add_entries(A, *self.entries(q, rows, (w * (before - between))[:, :, None]))
-        backend.add_entries(A, *self.entries(rows, q, (w * (after - 0.5 * between))[:, None, :]))
+        w, half = self._lumped[:, None], 0.25 * (before + after)
+        return [w * (before - 2.0 * half), w * (after - half)]
 
     def local_error(self) -> float:
         """Error of the last step, in L."""
@@ -229,22 +226,22 @@ class Moving(Problem):
         """Take the velocities and momenta that the step leads to."""
         r, q, rate, start = self.lumped.r, self.lumped.q, self._rate(), self._start
         after = self.x[q]
-        self._take_apart()
+        self._add_up()
         if self.scheme.side:
             self.motion = Motion(rate, self._turning.mean(after), (rate - start.v) / self.h, self.h)
             return
         # What a support adds to the momentum of what it holds is not known: the mean rate stands for it.
         v = np.where(self._is_held[r], rate, 2.0 * rate - start.v)
-        π = self._turning.left(after, sum(b[q] for b in self.parts[1:]))
+        π = self._turning.left(after, self.parts[1:].sum(axis=0)[q])
         held = self._is_held[q].any(axis=1)
         if held.any():
             π[held] = self._turning.mean(after)[held]
         self.motion = Motion(v, π, (v - start.v) / self.h, self.h)
 
-    def _take_apart(self) -> None:
-        """Give `parts` what the step has led to."""
-        for b in self.parts:
-            b[:] = 0.0
-        self._add_apart(*self.parts)
-        for part in self._parts:
-            backend.sum_over_ranks(part)
+    def _add_up(self) -> None:
+        """Make `parts`, which the last residual has left, those of all ranks."""
+        if self.discretization.comm.size > 1:
+            for part in self.parts[self._acts]:
+                self._carrier.x.array[:] = part
+                backend.sum_over_ranks(self._carrier)
+                part[:] = self._carrier.x.array

@@ -8,11 +8,10 @@ No residual line search: on the way to equilibrium the residual has to grow.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
+from math import isfinite, isnan
 from typing import TYPE_CHECKING
 
-from mpi4py import MPI
 from petsc4py import PETSc
 
 import numpy as np
@@ -20,10 +19,15 @@ import numpy as np
 from dolfinrod.continuum.coupled import linear_solver
 from dolfinrod.continuum.direct import LIBRARY_ERROR
 from dolfinrod.continuum.leap import part_taken
+from dolfinrod.continuum.outcome import LOST, MOST_ITERATIONS, SINGULAR, Outcome, words
+from dolfinrod.continuum.pivots import Pivoting
 from dolfinrod.continuum.pressed import DIRECT, ROUGH, pressed, renewed
+from dolfinrod.continuum.sizes import Sizes
 from dolfinrod.continuum.watch import Unwatched, Watch
 
 if TYPE_CHECKING:
+    from mpi4py import MPI
+
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.problem import Problem
@@ -40,37 +44,6 @@ TOLERANCE = 1e-9
 NEGLIGIBLE = 1e-13
 # Turn in an iteration [rad] beyond which what it presses is found out before anything moves, and in how many trials.
 WIDE, FORESIGHTS = 0.1, 2
-# Iterations after which a load step is given up; a rod that winds up five turns takes about twenty.
-MOST_ITERATIONS = 50
-
-LOST = PETSc.SNES.ConvergedReason.DIVERGED_DTOL
-SINGULAR = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
-REASONS = {
-    PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "the residual is not a number",
-    PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: f"Newton's method did not settle in {MOST_ITERATIONS} iterations",
-    LOST: "the sections turned to and fro and did not settle",
-    SINGULAR: ("the tangent is singular: something is free to move, or a load is critical"),
-    PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_DOMAIN: "the residual is not a number",
-}
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How one solve ended.
-
-    Args:
-        converged: Whether the increments became small enough.
-        iterations: Newton iterations done.
-        residual: Norm of the last residual in working units.
-        reason: The SNES reason in words.
-        strayed: Whether the rods ended up turned against the way they set out.
-    """
-
-    converged: bool
-    iterations: int
-    residual: float
-    reason: str
-    strayed: bool = False
 
 
 class Newton:
@@ -85,16 +58,17 @@ class Newton:
         d = problem.discretization
         self.factorizations = 0
         self._r, self._q, self._foresights = d.owned_nodes("r"), d.owned_nodes("q"), 0
-        self._linear = [d.owned_nodes(f).ravel() for f in ("r", "N", "m")]
-        self._m = self._linear[-1]
+        self._sizes, self._m = Sizes(d, ("r", "N", "m")), d.owned_nodes("m").ravel()
+        self._pivoting = Pivoting(problem, self._r)
         self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
         self._size = self._next = self._moved = np.inf
         self._open()
 
     def _open(self) -> None:
         d = self.problem.discretization
+        self._alone = d.comm.size == 1
         self._A, self._X, self._F = (d.matrix, d.x.vector.duplicate(), d.x.vector.duplicate())
-        self.snes = self._make_snes(d.comm)
+        self.snes: PETSc.SNES = self._make_snes(d.comm)
 
     def _make_snes(self, comm: MPI.Comm) -> PETSc.SNES:
         snes = PETSc.SNES().create(comm)
@@ -130,15 +104,20 @@ class Newton:
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size = self._next = np.inf
         self._watch = self._watched(last)
+        self._pivoting.begin(fine)
         reason = self._run()
         iterations = self.snes.getIterationNumber()
         if reason == SINGULAR:
-            self.close()
-            self._open()
-            return Outcome(False, iterations, np.nan, REASONS[SINGULAR])
+            self.reopen()
+            return Outcome(False, iterations, np.nan, words(SINGULAR))
         # The last residual was that of the solution, and left the problem there with multipliers in balance.
-        words = REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
-        return Outcome(reason > 0, iterations, float(self.snes.getFunctionNorm()), words, self._watch.strayed())
+        residual = float(self.snes.getFunctionNorm())
+        return Outcome(reason > 0, iterations, residual, words(reason), self._watch.strayed())
+
+    @property
+    def set_out(self) -> NDArray[np.float64] | None:
+        """Spins with which the sections of this rank set out in the last attempt, shape (n, n_spin)."""
+        return self._watch.set_out()
 
     def _watched(self, last: NDArray[np.float64] | None) -> Watch | Unwatched:
         return Watch(self.problem, last)
@@ -156,6 +135,11 @@ class Newton:
             return SINGULAR
         return int(self.snes.getConvergedReason())
 
+    def reopen(self) -> None:
+        """Begin anew with solvers that have met no singular tangent."""
+        self.close()
+        self._open()
+
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together: the garbage collector would do it on each at its own time."""
         self.snes.destroy()
@@ -164,21 +148,30 @@ class Newton:
 
     def _take(self, X: PETSc.Vec) -> None:
         """Make X the problem's state, but for the multipliers: these follow from it, and X may have lost them."""
-        balanced = self.problem.x[self._multipliers]
-        X.ghostUpdate(PETSc.InsertMode.INSERT, PETSc.ScatterMode.FORWARD)
-        with X.localForm() as x:
-            self.problem.x[:] = x.array_r
-        self.problem.x[self._multipliers] = balanced
+        state, multipliers = self.problem.x, self._multipliers
+        balanced = state[multipliers]
+        if self._alone:
+            state[:] = X.array_r
+        else:
+            X.ghostUpdate(PETSc.InsertMode.INSERT, PETSc.ScatterMode.FORWARD)
+            with X.localForm() as x:
+                state[:] = x.array_r
+        state[multipliers] = balanced
 
     def _residual(self, snes: PETSc.SNES, X: PETSc.Vec, F: PETSc.Vec) -> None:
         self._take(X)
-        with F.localForm() as f:
-            b = f.array
+        if self._alone:
+            b = F.array
             b[:] = 0.0
             self.problem.add_residual(b)
-        F.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
-        self.problem.balance_multipliers(F.array)
-        self.problem.clear_held(F.array)
+        else:
+            with F.localForm() as f:
+                f.array[:] = 0.0
+                self.problem.add_residual(f.array)
+            F.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
+            b = F.array
+        self.problem.balance_multipliers(b)
+        self.problem.clear_held(b)
 
     def _tangent(self, snes: PETSc.SNES, X: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         self.problem.assemble_tangent(P)
@@ -187,16 +180,16 @@ class Newton:
     def _limit(self, X: PETSc.Vec, Y: PETSc.Vec) -> bool:
         """Replace the Newton step Y (x − Y is next) by one that stays on the manifold and turns at most so far."""
         kin, x, y = self.problem.kinematics, X.array_r, Y.array
-        y *= part_taken(self.problem, y[self._r])
+        self._pivoting.complete(self.snes.getKSP(), X, Y)
+        if self.problem.pairs is not None:
+            y *= part_taken(self.problem, y[self._r])
         q = x[self._q]
         increment = kin.increment(q, -y[self._q])
-        sizes = np.abs(y), np.abs(x)
-        largest = self._largest(kin.angles(increment), *(size[dofs] for size in sizes for dofs in self._linear))
-        turn = largest[0]
+        turn, changes, fields = self._sizes.largest(kin.angles(increment), y, x)
         if turn > WIDE and self._foresees(x, y):
             y[:] = 0.0
             return True
-        before, self._size = (self._size, max(turn, *(largest[1:4] / np.maximum(largest[4:], 1.0))))
+        before, self._size = self._size, max(turn, *(by / max(of, 1.0) for by, of in zip(changes, fields, strict=True)))
         if turn > LARGEST_TURN:
             increment *= LARGEST_TURN / turn
             y[self._m] *= LARGEST_TURN / turn
@@ -204,7 +197,7 @@ class Newton:
             increment, y[:] = 0.5 * increment, 0.5 * y
         self._watch.see(q, increment, limited=turn > LARGEST_TURN)
         y[self._q] = q - kin.turn(q, increment)
-        self._moved, self._next = max(turn, largest[1]), self._expected(before, self._size)
+        self._moved, self._next = max(turn, changes[0]), self._expected(before, self._size)
         return True
 
     def _foresees(self, x: Array, y: Array) -> bool:
@@ -217,7 +210,7 @@ class Newton:
 
     def _expected(self, before: float, size: float) -> float:
         """Next increment after these two: quadratic, with their ratio, never taken below 1."""
-        return size**2 * max(1.0, size / before**2) if np.isfinite(before) else np.inf
+        return size**2 * max(1.0, size / before**2) if isfinite(before) else np.inf
 
     def _settled(self) -> bool:
         """Whether no further increment matters."""
@@ -230,19 +223,13 @@ class Newton:
         """Whether the last increment has changed what touches, sticks or slides: the tangent was of something else."""
         return self.problem.contacts is not None and self._size > NEGLIGIBLE and self.problem.contacts.changed
 
-    def _largest(self, *values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Largest of each array of magnitudes, over all ranks; a rank may have none."""
-        largest = np.array([v.max(initial=0.0) for v in values])
-        self.problem.discretization.comm.Allreduce(MPI.IN_PLACE, largest, op=MPI.MAX)
-        return largest
-
     def _test(self, snes: PETSc.SNES, iteration: int, norms: tuple[float, float, float]) -> int:
         reasons = PETSc.SNES.ConvergedReason
-        if not np.isfinite(norms[2]) or np.isnan(self._size):
+        if not isfinite(norms[2]) or isnan(self._size):
             return reasons.DIVERGED_FNORM_NAN
         if self._watch.lost:
-            return reasons.DIVERGED_DTOL
+            return LOST
         if iteration > 0 and self._settled():
             return reasons.CONVERGED_SNORM_RELATIVE
-        ends = iteration >= self._most or (self._most == DIRECT and self._watch.creeping)
-        return reasons.DIVERGED_MAX_IT if ends else reasons.ITERATING
+        lost = self._most == DIRECT and (self._watch.creeping or self._pivoting.gives_way)
+        return reasons.DIVERGED_MAX_IT if lost or iteration >= self._most else reasons.ITERATING

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import TYPE_CHECKING
 
 from mpi4py import MPI
@@ -39,8 +40,8 @@ class Predictor:
         self._free = np.ones(len(problem.x), dtype=bool)
         self._free[problem.constraints.dofs] = False
         self._free[np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))] = False
-        self._quaternions = np.unique(d.dofs["q"].reshape(-1, d.dofs["q"].shape[2]), axis=0)
-        self._t, self._x = np.array([t]), problem.x[None].copy()
+        self._quaternions = np.unique(d.dofs["q"].reshape(-1, d.dofs["q"].shape[2]), axis=0).astype(np.intp)
+        self._t, self._x = [t], problem.x[None].copy()
         self._best, self._guesses = 0, self._x
 
     def guess(self, t: float) -> Array:
@@ -61,18 +62,18 @@ class Predictor:
         problem, at = self._problem, self._nodal
         errors = np.abs(self._guesses[:, at] - problem.x[at]).max(axis=1, initial=0.0)
         problem.discretization.comm.Allreduce(MPI.IN_PLACE, errors, op=MPI.MAX)
-        self._best = int(np.argmin(errors)) + int(errors.argmin() + 1 == len(self._x) < MOST_STATES)
+        best = int(errors.argmin())
+        self._best = best + int(best + 1 == len(self._x) < MOST_STATES)
         recent = slice(1 - MOST_STATES, None)
-        self._t = np.append(self._t[recent], t)
+        self._t = [*self._t[recent], t]
         self._x = np.concatenate([self._x[recent], problem.x[None]])
 
     def _weights(self, t: float) -> Array:
         """Lagrange's weights of the last n states at time t, a row for each n, shape (n_states, n_states)."""
         times, n = self._t, len(self._t)
         weights = np.zeros((n, n))
-        for row in range(n):
-            used = times[n - 1 - row :]
-            others = ~np.eye(row + 1, dtype=bool)
-            ratios = np.divide(t - used, used[:, None] - used, out=np.ones((row + 1, row + 1)), where=others)
-            weights[row, n - 1 - row :] = ratios.prod(axis=1)
+        for first in range(n):
+            for i in range(first, n):
+                others = (times[j] for j in range(first, n) if j != i)
+                weights[n - 1 - first, i] = prod((t - other) / (times[i] - other) for other in others)
         return weights

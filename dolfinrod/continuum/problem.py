@@ -172,7 +172,7 @@ class Problem:
             return
         q, λ = self._unit
         p = self.x[q]
-        along = (p * b[q]).sum(axis=1)
+        along = np.einsum("ni,ni->n", p, b[q])
         b[q] -= along[:, None] * p
         self.x[λ] -= along / self._lumped
         self.discretization.x.x.scatter_forward()

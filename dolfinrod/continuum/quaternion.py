@@ -19,6 +19,7 @@ __all__ = [
     "cross",
     "crossed",
     "curvature",
+    "divided",
     "exponential",
     "left",
     "logarithm",
@@ -43,6 +44,7 @@ LEFT, RIGHT = (
         [[-1, 1, 1, -1], [-1, -1, 1, 1], [-1, 1, -1, 1]],
     )
 )
+DIVIDED = np.concatenate([np.eye(4), RIGHT], axis=1)
 
 
 def rotation(p: Expr) -> Expr:
@@ -89,6 +91,11 @@ def left(p: NDArray[np.float64]) -> NDArray[np.float64]:
 def right(p: NDArray[np.float64]) -> NDArray[np.float64]:
     """Im(p̄ δp) as a matrix acting on δp: half the spin in the rotated frame, shape (n, 3, 4)."""
     return (p @ RIGHT).reshape(-1, 3, 4)
+
+
+def divided(p: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The turn from p on, p̄ q, as a matrix acting on q: the cosine of half of it, then `right`, shape (n, 4, 4)."""
+    return (p @ DIVIDED).reshape(-1, 4, 4)
 
 
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:

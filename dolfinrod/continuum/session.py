@@ -31,6 +31,7 @@ from dolfinrod.scene.options import element_counts
 if TYPE_CHECKING:
     from dolfinrod.continuum.kinematics import Kinematics
     from dolfinrod.continuum.readout import State
+    from dolfinrod.continuum.stepping import Found
     from dolfinrod.scene import Scene
 
 __all__ = ["Session", "opened"]
@@ -42,6 +43,14 @@ class DivergenceJudge(Judge):
     def verdict(self, state: State, t: float, *, closely: bool, doubt: float = 0.0) -> Verdict:
         """Stability by pivots or the sign of the determinant, never by vibrations."""
         return super().verdict(state, t, closely=False, doubt=doubt)
+
+
+class Followed(Walk):
+    """Never leaves the path it is on, so that a load at which the path turns back is met, not jumped over."""
+
+    def _beside(self, t: float, found: Found) -> Found:
+        """What was found."""
+        return found
 
 
 @dataclass
@@ -99,7 +108,7 @@ class Session:
         Raises:
             StepFailed: No equilibrium was found on the way.
         """
-        Walk(self.newton, self.phase, self.judge, self.readout, self.path, None).run(until=t)
+        Followed(self.newton, self.phase, self.judge, self.readout, self.path, None).run(until=t)
 
     def judge_start(self) -> None:
         """Find out whether the current equilibrium is stable: only then do steps that follow shy away from others."""

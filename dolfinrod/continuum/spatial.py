@@ -131,8 +131,8 @@ class SpatialRods:
 
     def cayley(self, q_0: Array, q_1: Array) -> Array:
         """c = 2 Im(p̄₀ p₁)/(p₀·p₁) with R₁ = R₀ cay(c), (n, 3)."""
-        cosine = np.einsum("ni,ni->n", q_0, q_1)[:, None]
-        return np.asarray(np.einsum("nij,nj->ni", quaternion.right(q_0), 2.0 * q_1 / cosine))
+        turn = np.einsum("nij,nj->ni", quaternion.divided(q_0), q_1)
+        return np.asarray(turn[:, 1:] * (2.0 / turn[:, :1]))
 
     def cayley_gradient(self, q_0: Array, q_1: Array) -> Array:
         """∂c/∂p₁, (n, 3, 4)."""

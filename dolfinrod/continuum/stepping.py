@@ -1,4 +1,10 @@
-"""Load stepping: the whole load first, halved where no equilibrium is found, longer again after easy steps."""
+"""Load stepping: the whole load first, halved where no equilibrium is found, longer again after easy steps.
+
+Beyond a critical load Newton's method finds the state that has become unstable, whatever the step, unless it ends close
+to the critical load, which nobody knows. Such a state is left along the direction in which stability was lost, to the
+side where small steps lead, and from there the method finds the stable one (aside.py). Where that side is not known, or
+what is found does not lie there, steps become shorter.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +14,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.continuum.aside import push_aside
 from dolfinrod.continuum.neutral import equilibrium
 from dolfinrod.continuum.pairs import PASSED
 from dolfinrod.continuum.pressed import DIRECT
 from dolfinrod.continuum.stability import Verdict
+from dolfinrod.continuum.stride import EASY, Stride
 from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.result import StepLog
 from dolfinrod.scene import Dynamic, corners
@@ -26,6 +34,8 @@ if TYPE_CHECKING:
     from dolfinrod.continuum.stability import Judge
     from dolfinrod.scene import Scene
 
+    Found = tuple[Outcome, State, Verdict]
+
 __all__ = ["Path", "StepFailed", "Walk", "targets"]
 
 # Halvings of the way from one target to the next after which a step is too small to be taken.
@@ -34,13 +44,11 @@ MOST_CUTS = 12
 MOST_DETOURS = 8
 # A prescribed turn of more than this in one step [rad] would send the interpolated quaternion through zero.
 LARGEST_PRESCRIBED_TURN = np.pi / 2
-# A step that took at most so many iterations was easy, and the next may be longer by this factor.
-EASY, GROWTH = 6, 1.5
-# Easy steps before a length that failed is tried again.
-PATIENCE = 4
 # Extrapolation pays where Newton's method starts in its quadratic range anyway, which these iterations show.
 SMOOTH = 4
 COARSE = "sections at neighbouring nodes turn by {:.2g} rad against each other, more than the elements can tell apart"
+# Directions that a round rod loses at once.
+PAIR = 2
 # Turns between neighbouring nodes [rad] beyond which no equilibrium is accepted, or its loss is blamed on the mesh.
 ALIASED, BLURRED = np.pi, np.pi / 2
 
@@ -76,44 +84,6 @@ class Path:
     iterations: int = 0
     stable: bool | None = None
     seconds_stability: float = 0.0
-
-
-@dataclass
-class Stride:
-    """Length of the next step, from how the last ones went.
-
-    Args:
-        length: That Newton's method is trusted with.
-        failed: Shortest that did not succeed.
-        successes: Steps taken since then.
-        cuts: Failed attempts at the present step.
-        easy: Most iterations of a step that was easy.
-    """
-
-    length: float = np.inf
-    failed: float = np.inf
-    successes: int = 0
-    cuts: int = 0
-    easy: int = EASY
-
-    def fail(self, tried: float) -> None:
-        """Half of what was tried comes next."""
-        self.length, self.failed, self.successes = tried / 2, tried, 0
-        self.cuts += 1
-
-    def succeed(self, tried: float, iterations: int) -> None:
-        """The same comes next, or more after an easy step, up to what failed not long ago."""
-        self.successes += 1
-        grown = GROWTH * tried
-        if self.cuts == 0 and iterations <= self.easy and (grown < self.failed or self.successes >= PATIENCE):
-            self.length = max(self.length, grown)
-        elif self.cuts:
-            self.length = tried
-        self.cuts = 0
-
-    def next(self, distance: float) -> float:
-        """Length of the next step on the way to a target, the rest being cut into equal parts."""
-        return float(distance / np.ceil(distance / self.length * (1 - 1e-9))) if self.length < distance else distance
 
 
 def targets(scene: Scene, t_0: float, until: float = np.inf) -> list[float]:
@@ -176,6 +146,7 @@ class Walk:
         outcome, state, verdict = self._attempt(t_next, tried, closely=t_next == target)
         path.iterations += outcome.iterations
         if state is not None and verdict is not None:
+            outcome, state, verdict = self._beside(t_next, (outcome, state, verdict))
             # The way to a stable state may only be too steep for so long a step, or lead to where the path does not.
             lost = outcome.strayed or (verdict.avoidable and path.stable is not False)
             if not lost or tried <= interval / 2**MOST_DETOURS:
@@ -213,12 +184,41 @@ class Walk:
         if turn > ALIASED:
             return replace(outcome, converged=False, reason=COARSE.format(turn)), None, None
         state = self._readout.state()
+        return outcome, state, self._judged(state, t, closely=closely)
+
+    def _judged(self, state: State, t: float, *, closely: bool) -> Verdict:
+        """Whether the problem's present state is stable, with the time it takes to find out."""
         if self._judge is None:
-            return outcome, state, Verdict(None)
+            return Verdict(None)
         started = time.perf_counter()
         verdict = self._judge.verdict(state, t, closely=closely)
-        path.seconds_stability += time.perf_counter() - started
-        return outcome, state, verdict
+        self.path.seconds_stability += time.perf_counter() - started
+        return verdict
+
+    def _beside(self, t: float, found: Found) -> Found:
+        """What was found at t; or, where the way to it has lost stability, the stable state to which small steps lead.
+
+        Where more than a pair of directions is lost other critical points lie between, and shorter steps tell more.
+        """
+        (outcome, state, verdict), problem, path = found, self.newton.problem, self.path
+        lost = verdict.avoidable and path.stable is not False and (verdict.directions or 0) <= PAIR
+        if not lost or self._phase.needed or problem.contacts is not None:
+            return found
+        self._readout.restore(path.states[-1])
+        last = problem.x.copy()
+        self._readout.restore(state)
+        left = push_aside(self.newton, last)
+        if left is not None:
+            again = equilibrium(self.newton, self._phase, last)
+            path.iterations += again.iterations
+            reached = again.converged and not again.strayed and left.reached()
+            if reached and largest_turn_between_nodes(problem) <= ALIASED:
+                beside = self._readout.state()
+                judged = self._judged(beside, t, closely=False)
+                if judged.stable:
+                    return replace(again, iterations=outcome.iterations + again.iterations), beside, judged
+            self._readout.restore(state)
+        return found
 
     def _extrapolated(self, factor: float) -> State:
         """The last state, and what led to it once more, times a factor."""

@@ -106,10 +106,10 @@ class Strain:
         return np.asarray(np.swapaxes(blocks.reshape(cells, k, k, dim, dim), 2, 3).reshape(cells, k * dim, k * dim))
 
 
-def _flat(dofs: NDArray[np.int32]) -> NDArray[np.int32]:
+def _flat(dofs: NDArray[np.int32]) -> NDArray[np.intp]:
     """Those of a cell in a row, also where this rank has no cell."""
     cells, nodes, components = dofs.shape
-    return dofs.reshape(cells, nodes * components)
+    return dofs.reshape(cells, nodes * components).astype(np.intp)
 
 
 def _solver(C: Array, nodes: int) -> Solve:

@@ -40,11 +40,12 @@ class Watch:
     def __init__(self, problem: Problem, last: Array | None) -> None:
         self._comm, self._kin = problem.discretization.comm, problem.kinematics
         q = problem.discretization.owned_nodes("q")
-        start = problem.x[q] if last is None else last[q]
-        self._net = np.einsum("nij,nj->ni", problem.kinematics.spin(start), problem.x[q] - start)
-        (self._travelled,) = self._largest(np.linalg.norm(self._net, axis=1))
+        self._net, self._set_out, self._travelled = np.zeros((len(q), self._kin.n_spin)), None, 0.0
+        if last is not None:
+            self._set_out = self._net = self._spins(last[q], problem.x[q] - last[q])
+            (self._travelled,) = self._largest(self._net)
         self.lost = False
-        self._set_out = None if last is None else self._net.copy()
+        self._seen: list[tuple[Array, Array]] = []
         self._rounds = Rounds(self._comm, problem.contacts)
 
     def see(self, q: Array, increment: Array, *, limited: bool) -> None:
@@ -55,12 +56,10 @@ class Watch:
             increment: How it changes them, shape (n, n_q).
             limited: Whether the spins were cut down to the largest turn of an iteration.
         """
-        spin = np.einsum("nij,nj->ni", self._kin.spin(q), increment)
-        self._net += spin
-        if self._set_out is None:
-            self._set_out = spin
+        self._seen.append((q, increment))
         if limited:
-            turn, net = self._largest(np.linalg.norm(spin, axis=1), np.linalg.norm(self._net, axis=1))
+            self._add_up()
+            turn, net = self._largest(self._spins(q, increment), self._net)
             self._travelled += turn
             self.lost = bool(self._travelled - net > LARGEST_DETOUR)
 
@@ -73,17 +72,41 @@ class Watch:
         """Whether increments have hardly become shorter lately."""
         return self._rounds.creeping
 
+    def set_out(self) -> Array | None:
+        """Spins with which they set out, shape (n, n_spin); None before the first iteration."""
+        self._add_up()
+        return self._set_out
+
     def strayed(self) -> bool:
         """Whether the sections have turned, in all, against the way they set out, as to a mirrored branch."""
+        self._add_up()
         if self._set_out is None:
             return False
-        (turned,) = self._largest(np.linalg.norm(self._net, axis=1))
-        along = self._comm.allreduce(float(np.vdot(self._set_out, self._net)))
+        (turned,), along = self._largest(self._net), np.array([np.vdot(self._set_out, self._net)])
+        self._comm.Allreduce(MPI.IN_PLACE, along, op=MPI.SUM)
         return bool(turned > STRAYED and along < 0.0)
 
-    def _largest(self, *values: Array) -> Array:
-        """Largest magnitude in each array, over all ranks; a rank may have none."""
-        largest = np.array([np.abs(v).max(initial=0.0) for v in values])
+    def _add_up(self) -> None:
+        """Add the spins of the iterations seen since the last time, all at once: single ones cost more than they say.
+
+        Iterations that nobody asks about, the most of them, cost next to nothing so.
+        """
+        if not self._seen:
+            return
+        q, increments = (np.concatenate(parts) for parts in zip(*self._seen, strict=True))
+        spins = self._spins(q, increments).reshape(len(self._seen), *self._net.shape)
+        self._net = self._net + spins.sum(axis=0)
+        if self._set_out is None:
+            self._set_out = spins[0]
+        self._seen.clear()
+
+    def _spins(self, q: Array, increments: Array) -> Array:
+        """Spins that such changes of rotations stand for, shape (n, n_spin)."""
+        return np.matmul(self._kin.spin(q), increments[:, :, None])[:, :, 0]
+
+    def _largest(self, *spins: Array) -> Array:
+        """Largest spin in each array, over all ranks; a rank may have none."""
+        largest = np.sqrt([np.einsum("ni,ni->n", θ, θ).max(initial=0.0) for θ in spins])
         self._comm.Allreduce(MPI.IN_PLACE, largest, op=MPI.MAX)
         return largest
 
@@ -99,6 +122,10 @@ class Unwatched:
 
     def see(self, q: Array, increment: Array, *, limited: bool) -> None:
         """Take no note."""
+
+    def set_out(self) -> None:
+        """Nobody knows."""
+        return
 
     def strayed(self) -> bool:
         """It has not."""

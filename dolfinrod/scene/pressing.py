@@ -117,6 +117,31 @@ class Pressing:
         """Let the points that were foreseen be those of the next answer, at the same place."""
         self._foreseen, self._led = self._ahead, None
 
+    def ahead(self, X: Array, gap: Array, λ: Array, normal: Array) -> tuple[Array, Array, Flags, Array]:
+        """Where a linear step to X leads; other arguments are of where it is taken from.
+
+        Args:
+            X: Points where it leads, shape (n, 3) [m].
+            gap: Shape (n,) [m].
+            λ: Multipliers, shape (n,) [N/m].
+            normal: Shape (n, 3).
+
+        Returns:
+            Pressures where it is taken and where it leads, below zero beyond the wall, what is pressed, and −dp/dg,
+            each of shape (n,).
+        """
+        X_0, touch, p_0, _ = self._taken
+        p, slope = self.law.drawn(gap, λ)
+        p = np.where(touch, p_0, p)
+        self._onward = X_0, p, slope[:, None] * normal
+        return p, p + slope * np.einsum("ni,ni->n", normal, X - X_0), touch, -slope
+
+    def settle(self, pressed: Flags) -> None:
+        """Let these be the points that are pressed at the end of that step; none are asked about where none is open."""
+        X_0, p, p_X = self._onward
+        if len(pressed) == len(p):
+            self._led = pressed, X_0, p, p_X
+
     def enough(self, p: Array, gap: Array) -> bool:
         """Whether multipliers need no renewal; where the last one did little, the law is made firmer for good.
 
@@ -136,4 +161,5 @@ class Pressing:
 
     def led(self, X: Array, p: Array, p_X: Array, pressed: Flags) -> None:
         """From here the next linear step is taken; arguments as for `at`, p_X of shape (n, 3)."""
+        self._taken = X, pressed, p, p_X
         self._led = pressed & (p != 0.0), X, p, p_X

@@ -5,14 +5,24 @@ All vectors are in the axes of the wall, one row a point.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.sliding import mapped, slip_slopes, traction_slopes
+from dolfinrod.scene.sliding import lever_slopes, mapped, slip_slopes, traction_slopes
 
-__all__ = ["Pressed", "Rubbing", "Step", "cross", "rubbed", "skew", "slip_gradients", "traction_gradient"]
+__all__ = [
+    "Pressed",
+    "Rubbing",
+    "Step",
+    "cross",
+    "rubbed",
+    "rubbing_slopes",
+    "skew",
+    "slip_gradients",
+    "traction_gradient",
+]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -148,6 +158,22 @@ def slip_gradients(step: Step, start: Array, g_0: float) -> tuple[Array, Array]:
     along = (step.share, step.w, step.v, step.gap[on], start, g_0)
     u_X, u_turn = slip_slopes(step.turned[on], p.n, p.n_X, p.radius, p.p_X, *along)
     return u_X, u_turn
+
+
+def rubbing_slopes(step: Step, start: Array, g_0: float, μ: float, ε_T: float) -> tuple[Array, Array, Array, Array]:
+    """Derivatives of tractions and of their moments; arguments as for `slip_gradients` and `traction_gradient`.
+
+    Returns:
+        ∂t/∂X, ∂t/∂Ψ, ∂m/∂X and ∂m/∂Ψ, shapes (m, 3, 3).
+    """
+    assert step.rubbing is not None
+    pressed, (u_x, u_turn) = step.pressed, slip_gradients(step, start, g_0)
+    still = replace(pressed, p_X=np.zeros_like(pressed.p_X))
+    t_x = traction_gradient(pressed, step.rubbing, u_x, μ, ε_T)
+    t_turn = traction_gradient(still, step.rubbing, u_turn, μ, ε_T)
+    lever = pressed.radius, step.rubbing.traction
+    m_x = lever_slopes(pressed.n, pressed.n_X, *lever, t_x)
+    return t_x, t_turn, m_x, lever_slopes(pressed.n, np.zeros_like(m_x), *lever, t_turn)
 
 
 def cross(a: Array, b: Array) -> Array:

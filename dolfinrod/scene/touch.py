@@ -6,7 +6,6 @@ and turned into space at the end. Both models of this project ask here, each for
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,11 +16,13 @@ from dolfinrod.scene.creeping import against, creeping_gradient
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
 from dolfinrod.scene.outward import felt, into_space, onto_wall
 from dolfinrod.scene.piercing import pierces
+from dolfinrod.scene.pivoting import Outlook
 from dolfinrod.scene.pressing import Pressing
+from dolfinrod.scene.pressure import SmoothPenalty
 from dolfinrod.scene.pushing import GRAZING, gathered
 from dolfinrod.scene.reply import OPEN, SLIDES, Booked, Gradient, Reply
-from dolfinrod.scene.rubbing import Pressed, Step, rubbed, slip_gradients, traction_gradient
-from dolfinrod.scene.sliding import lever_slopes, passed, torn
+from dolfinrod.scene.rubbing import Pressed, Step, rubbed, rubbing_slopes
+from dolfinrod.scene.sliding import passed, torn
 from dolfinrod.scene.surfaces import REST, Pose
 
 if TYPE_CHECKING:
@@ -48,11 +49,11 @@ class Touch:
     def __init__(self, contact: Contact, radius: Array, t_end: float, level: float = 1.0) -> None:
         self.contact, self._radius, self._t_end, self._level = contact, radius, t_end, level
         self._friction, self._pressing = contact.friction, Pressing(contact.law, radius)
+        self.open = len(radius) if self._friction is None and not isinstance(contact.law, SmoothPenalty) else 0
         self._none, self._all = np.zeros(len(radius), dtype=bool), np.ones(len(radius), dtype=bool)
-        self.adopt = self._pressing.adopt
+        self.adopt, self.settle = self._pressing.adopt, self._pressing.settle
         anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
         self._stiffness = contact.law.eps_N if anchors is None else anchors
-        self._ε_T = self._stiffness
         self._arm = self._friction.arm(radius) if isinstance(self._friction, Coulomb) else np.zeros_like(radius)
         self.changed = self.forced = False
         self.turns = bool(self._arm.any())
@@ -71,9 +72,8 @@ class Touch:
         """A step from where the rods were last accepted leads to time t."""
         self._λ = self._λ_0.copy()
         self._pressing.begin()
-        self._slid = np.zeros((len(self._radius), 3))
+        self._slid, self._ε_T = np.zeros((len(self._radius), 3)), self._stiffness
         self._clings = self._glides = self._stuck = self._none
-        self._ε_T = self._stiffness
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
         unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
         self._afar = unloaded & (self._gap_0 - self._pressing.law.g_0 > GRAZING * self._radius)
@@ -143,8 +143,7 @@ class Touch:
         if not isinstance(self._friction, Coulomb) or not self._stuck.any():
             return self._none
         reach = self._friction.mu * self._reply.pressure / self._ε_T
-        found: Flags = torn(self._stuck, X, self._X_0, turned, n, self._radius, self._u, reach)
-        return found
+        return np.asarray(torn(self._stuck, X, self._X_0, turned, n, self._radius, self._u, reach))
 
     def gradient(self) -> Gradient:
         """Derivatives of the last reply."""
@@ -155,13 +154,9 @@ class Touch:
             return Gradient(step.on, none, none, none, none)
         if step.rubbing is not None:
             assert isinstance(self._friction, Coulomb)
-            u_x, u_turn = slip_gradients(step, self._gap_0[step.on], self._pressing.law.g_0)
-            still, law = replace(pressed, p_X=np.zeros_like(pressed.p_X)), (self._friction.mu, self._ε_T)
-            t_x = traction_gradient(pressed, step.rubbing, u_x, *law)
-            t_turn = traction_gradient(still, step.rubbing, u_turn, *law)
-            lever = pressed.radius, step.rubbing.traction
-            m_x = lever_slopes(pressed.n, pressed.n_X, *lever, t_x)
-            return self._in_space(f_x + t_x, t_turn, m_x, lever_slopes(pressed.n, none, *lever, t_turn))
+            law = self._friction.mu, self._ε_T
+            t_x, *turning = rubbing_slopes(step, self._gap_0[step.on], self._pressing.law.g_0, *law)
+            return self._in_space(f_x + t_x, *turning)
         if isinstance(self._friction, CreepingCoulomb):
             v, speed = against((self._x - self._x_0)[step.on], self._rate, self._friction.v_0)
             Q, end, μ = self._acting.Q, self._end.Q, self._friction.mu
@@ -174,7 +169,9 @@ class Touch:
 
     def cling(self) -> None:
         """Begin the iteration with what was pressed and stuck before, wherever the wall has gone meanwhile."""
-        self._clings = self._pressing.cling(self._state_0 > OPEN, self._gap_0) & (self._state_0 != SLIDES)
+        pressed = self._state_0 > OPEN
+        kept = self._pressing.cling(pressed, self._gap_0) if self._level == 1.0 else pressed
+        self._clings = kept & (self._state_0 != SLIDES)
 
     def glide(self) -> None:
         """Begin it with what slid before sliding on, as it does where the loads go on as they did."""
@@ -184,6 +181,12 @@ class Touch:
         """Whether a linear step to x presses other points than it was taken with: `adopt` lets them be pressed here."""
         return self._pressing.foresee(self._end.back(x), self._step.gap, self._step.normal)
 
+    def ahead(self, x: Array, share: Array) -> Outlook:
+        """Where a linear step to x leads the points that may be exchanged, for `settle`, by their shares of rod [m]."""
+        step = self._step
+        ways = self._pressing.ahead(self._end.back(x), step.gap, self._λ, step.normal)
+        return Outlook(*ways, step.normal @ self._end.Q.T, share).first(self.open)
+
     def soften(self, by: float) -> None:
         """Let the wall be softer by a factor until the next `begin`: on the way to what is pressed."""
         self._pressing.soften(by)
@@ -191,15 +194,14 @@ class Touch:
 
     def renew(self) -> bool:
         """Give the multipliers what has just acted; whether that was within the tolerance of the law already."""
-        done = self._pressing.enough(self._reply.pressure, self._reply.gap)
-        self._λ = self._λ if done else self._reply.pressure.copy()
+        if not (done := self._pressing.enough(self._reply.pressure, self._reply.gap)):
+            self._λ = self._reply.pressure.copy()
         return done
 
     def pierces(self) -> bool:
         """Whether the step has led into or through the wall: it was too long."""
-        step = self._step
-        ways = (self._X_0, step.X), (self._n_0, step.normal)
-        return pierces(self.contact.surface, *ways, step.gap + self._radius)
+        ways = (self._X_0, self._step.X), (self._n_0, self._step.normal)
+        return pierces(self.contact.surface, *ways, self._step.gap + self._radius)
 
     def accept(self) -> Booked:
         """The step counts, with what has acted in it."""
@@ -214,8 +216,7 @@ class Touch:
             on, anchored, traction = step.on, step.rubbing.anchored, step.rubbing.traction
             self._slip[on] += step.rubbing.slipped
         rubbed, self._u = rubbed_off(self._u, self._ε_T, on, anchored, traction, step.w)
-        if creeps:
-            rubbed = -np.einsum("ni,ni->n", reply.traction, moved)
+        rubbed = -np.einsum("ni,ni->n", reply.traction, moved) if creeps else rubbed
         self._x_0, self._X_0, self._gap_0, self._t_0 = self._x, step.X, step.gap, self._t
         self._n_0 = step.normal
         self._λ_0, self._state_0 = self._λ.copy(), self._state

@@ -11,6 +11,7 @@ import discrete
 from discrete.contact import Contacts
 from discrete.mesh import mesh
 from discrete.rotation import exp
+from discrete.turns import Turns
 from discrete.unknowns import AXIAL, SPIN, X
 from dolfinrod.result import NotConverged, Result
 from dolfinrod.scene import (
@@ -254,7 +255,7 @@ def test_blocks_are_the_derivative_of_forces(friction):
     touched = Contact(Plane(normal=(0.1, 0.2, 1.0), motion=turning), Penalty(300.0, 0.05), friction)
     scene = Scene([Rod.straight(1.0, ROUND)], contacts=[touched, Contact(Plane(normal=(0, 1, 1)), Penalty(80.0, 0.1))])
     cut = mesh(scene, 4)
-    contacts = Contacts(scene, cut)
+    contacts = Contacts(scene, cut, Turns())
     contacts.recall({}, cut.x, cut.R, 0.0)
     x, R = cut.x + 0.02 * rng.normal(size=cut.x.shape), exp(0.3 * rng.normal(size=cut.x.shape)) @ cut.R
     contacts.at(x, R, 0.7)

@@ -16,6 +16,7 @@ from discrete.options import law
 from discrete.rotation import exp
 from discrete.supports import Supports
 from discrete.surroundings import surroundings_of
+from discrete.turns import Turns
 from discrete.unknowns import SPIN, X
 from dolfinrod.result import NotConverged, Result
 from dolfinrod.scene import (
@@ -146,7 +147,7 @@ def test_couples_of_friction_leave_no_moment():
     """All that rods that rub do to each other, forces and moments about any point, adds up to nothing."""
     scene = crossed(SKEW, friction=Coulomb(MU), drag=1e-5)
     cut = mesh(scene, 21)
-    others = Encounters(scene, cut)
+    others = Encounters(scene, cut, Turns())
     rng = np.random.default_rng(1)
     others.recall({}, cut.x, cut.R, 0.0)
     others.begin(1.0)
@@ -166,7 +167,7 @@ def test_what_rods_answer_is_the_slope_of_what_they_do(friction):
     """Of forces and moments at nodes, by differences; products, blocks and entries of the matrix are one thing."""
     scene = crossed(SKEW, Penalty(4e5, 4e-6), friction)
     cut = mesh(scene, 9)
-    others = Encounters(scene, cut)
+    others = Encounters(scene, cut, Turns())
     rng = np.random.default_rng(2)
     others.recall({}, cut.x, cut.R, 0.0)
     others.begin(1.0)

@@ -10,7 +10,7 @@ import numpy as np
 from discrete.contact import Contacts as DiscreteContacts
 from dolfinrod.continuum import contact as continuum_contact
 from dolfinrod.continuum.contact import Contacts
-from dolfinrod.scene import Cylinder, Plane, Touch, touch
+from dolfinrod.scene import Cylinder, Plane, Touch, rubbing, touch
 from dolfinrod.scene.pressing import Pressing
 from dolfinrod.scene.reply import Booked, Gradient, Reply
 from dolfinrod.scene.rubbing import Pressed, Rubbing, Step, rubbed
@@ -212,7 +212,7 @@ def _stays_soft(right: Any, self: Touch, by: float) -> None:
 def _whole_discrete_ends(right: Any, self: DiscreteContacts, *args: Any) -> None:
     """The same of a single rod."""
     right(self, *args)
-    for pair in self._pairs:
+    for pair in self.pairs:
         pair.share[[0, -1]] *= 2.0
 
 
@@ -247,7 +247,7 @@ NOTHING_STORED = replaced(Touch, "stored", _nothing_stored)
 RUBBED_IN_SPACE = replaced(Touch, "accept", _rubbed_in_space)
 AS_ON_A_PLANE = replaced(Pressed, "gradient", _as_on_a_plane)
 NO_CURVATURE = replaced(Cylinder, "closest", _flat)
-NO_TANGENT_OF_FRICTION = replaced(touch, "traction_gradient", _without_friction)
+NO_TANGENT_OF_FRICTION = replaced(rubbing, "traction_gradient", _without_friction)
 STAYS_SOFT = replaced(Touch, "soften", _stays_soft)
 
 WHOLE_ENDS = replaced(continuum_contact, "node_lengths", _whole_ends)

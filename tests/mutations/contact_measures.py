@@ -69,8 +69,12 @@ def carried_along(solve: Solve) -> float:
 
 
 def lifted_off(solve: Solve) -> float:
-    """Distance from where it would be without the wall."""
-    there, never = (solve(on.lifted(*c), elements=2) for c in ([on.floor(FLAT, dr.Penalty(1e4))], []))
+    """Distance from where it would be without the wall.
+
+    With friction: without it a set of nodes that is wrong is put right with every linear step.
+    """
+    rough = on.floor(FLAT, dr.Penalty(1e4), dr.Coulomb(0.3))
+    there, never = (solve(on.lifted(*c), elements=2) for c in ([rough], []))
     return largest(there.tip - never.tip)
 
 

@@ -158,11 +158,11 @@ def _spread(nodes: Array, blocks: Array | None, d: Array) -> Array:
 def holds(_solve: Solve) -> float:
     """Force of anchors on the rod above, drawn along the other in four steps, by ε_T u L; and beyond, by μ p L.
 
-    What is drawn along loses as much of its length.
+    What is drawn along loses as much of its length; it is drawn less far than the first point is from the end.
     """
     x, u = pair(0.0), 0.2 * MU * EPS * DEPTH / EPS_T
     meeting, off = meet(x, MU), []
-    for k, limit in ((1, np.inf), (2, np.inf), (3, np.inf), (4, np.inf), (10, MU * EPS * DEPTH)):
+    for k, limit in ((1, np.inf), (2, np.inf), (3, np.inf), (4, np.inf), (6, MU * EPS * DEPTH)):
         meeting.begin(float(k))
         held = float(acting(meeting, x + k * above(u, 0.0)).force[N:, 0].sum())
         off.append(abs(held / min(EPS_T * k * u, limit) + 1.0))

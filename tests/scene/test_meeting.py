@@ -204,6 +204,21 @@ def test_force_does_not_jump_where_contact_leaves_the_end_of_a_span(way):
     assert largest(forces[1] - forces[0]) <= 1e-9 * largest(forces[0])
 
 
+@pytest.mark.parametrize("way", [1, -1], ids=["along", "against"])
+@pytest.mark.parametrize("bent", [(-4.0, 2.8, 0.0), (-10.0, 8.7, -1.44, 0.0)], ids=["touches", "touches and leaves"])
+def test_force_does_not_jump_where_an_end_comes_to_touch_beside_another_contact(bent, way):
+    """One cubic over a straight line, beyond its reach in the middle, within it at one end, at the other just so."""
+    places, lengths = np.linspace(0.0, 1.0, 4), np.array([[0.0, LENGTH]] * 2)
+    nodes, forces = np.arange(8).reshape(2, 4), []
+    lines = Strands.lagrange(np.arange(2), lengths, nodes, places, np.array([RADIUS, RADIUS]))
+    for end in (-1e-12, 1e-12):
+        height = 2 * RADIUS + HALO + 0.3 * HALO * (np.polyval(bent, places[::way]) + end)
+        x = np.concatenate([places[:, None] * [1.0, 0.0, 0.0], np.stack([places, 0 * places, height], axis=1)])
+        forces.append(force(met(x, replace(lines, spans=1)), x))
+    assert largest(forces[0]) > 0.01 * STIFF * HALO * LENGTH
+    assert largest(forces[1] - forces[0]) <= 1e-9 * largest(forces[0])
+
+
 def test_a_rod_touches_itself_only_where_a_loop_closes():
     s = np.linspace(0.0, 1.0, 41)
     φ = 2 * np.pi * s / 0.8

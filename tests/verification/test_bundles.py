@@ -21,7 +21,7 @@ from verification.bundles import (
     on_ranks,
 )
 from verification.bundlescene import bundle, places
-from verification.bundletrials import BUNDLES, FIBRES, MODELS, listing, names, units
+from verification.bundletrials import BUNDLES, FIBRES, LONG, MODELS, listing, names, units
 from verification.ledger import decode, encode
 from verification.report.bundles import bundles
 from verification.report.misses import sentence
@@ -107,11 +107,13 @@ def test_what_grows_too_fast_and_ranks_that_differ_are_missed_and_said():
 
 
 def test_chosen_like_a_family_or_one_by_one():
-    assert [unit.topic for unit in units((BUNDLES,), quick=False)] == ["bundle"] * 4
+    assert [unit.topic for unit in units((BUNDLES,), quick=False)] == ["bundle"] * 6
     assert [unit.topic for unit in units((BUNDLES,), quick=True)] == ["bundle"] * 2
     assert len(list(units(("bundles:discrete",), quick=False))) == 1
-    assert set(names()) == {BUNDLES, "bundles:discrete", "bundles:continuum", "bundles:ranks"}
-    assert len(list(listing((BUNDLES,)))) == 4
+    parts = {"bundles:discrete", "bundles:continuum", "bundles:ranks", "bundles:scaling"}
+    assert set(names()) == {BUNDLES, LONG, *parts}
+    assert len(list(listing((BUNDLES,)))) == 5
+    assert [unit.parameters[-1] for unit in units((LONG,), quick=False)][-1] == 200
     assert list(listing(("columns",))) == []
 
 

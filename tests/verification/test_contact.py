@@ -74,6 +74,18 @@ def test_an_elastica_on_a_wall_as_by_a_bvp_with_the_order_of_its_elements():
     assert found.order == pytest.approx(6.0, abs=0.5)
 
 
+@pytest.mark.parametrize("model", ["continuum", "discrete"])
+@pytest.mark.parametrize("beta", [1, 10])
+def test_a_rigid_wall_is_found_in_few_iterations_a_step(beta, model):
+    """By multipliers, on walls harder than any rod; 12 are asked of every case."""
+    case = BY_NAME[f"contact-wall-beta{beta}-rigid"]
+    run = next(run for run in case.runs if run.model == model and "multipliers" in run.label)
+    (record,) = contactstudy(case, replace(run, levels=run.levels[1:2])).records
+    assert record.failure is None
+    assert record.cuts == 0
+    assert record.iterations <= 6 * record.steps
+
+
 def test_a_wrong_reference_is_missed():
     case = BY_NAME["contact-v-45"]
     wrong = replace(case.reference, value=(1.001 * case.reference.value[0], *case.reference.value[1:]))

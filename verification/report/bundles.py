@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 from verification.bundles import FEW, GROWTH, MOST, SAME, BundleRanks, BundleStudy
 from verification.report.canvas import Curve, log_log
 from verification.report.families import panel
+from verification.report.scaling import scalings
 from verification.report.tables import Column, Group, Mark, Row, Swatch, count, figure, power, scientific, table
+from verification.scaling import EnsembleScaling, Scaling
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,9 +31,10 @@ NUMBER = "number"
 KINDS = {"discrete": "chord", "continuum": "p3"}
 
 
-def bundles(found: Sequence[BundleStudy | BundleRanks]) -> str:
-    """Two diagrams, the table of all runs, and that of ranks."""
+def bundles(found: Sequence[BundleStudy | BundleRanks | Scaling | EnsembleScaling]) -> str:
+    """Two diagrams, the table of all runs, and those of ranks."""
     parts, ranks = [], [row for row in found if isinstance(row, BundleRanks)]
+    shared = [row for row in found if isinstance(row, (Scaling, EnsembleScaling))]
     studies = [row for row in found if isinstance(row, BundleStudy)]
     if studies:
         lines = " ".join(Swatch(KINDS[s.model], False, f"{s.model}, {s.mesh}").html for s in studies)
@@ -40,7 +43,7 @@ def bundles(found: Sequence[BundleStudy | BundleRanks]) -> str:
         parts += [_costs(studies)]
     if ranks:
         parts += ["<h3>On one rank and on two</h3>", _ranks(ranks)]
-    return "\n".join(parts)
+    return "\n".join([*parts, *([scalings(shared)] if shared else [])])
 
 
 def diagram(found: Sequence[BundleStudy], quantity: str, y: str) -> str:

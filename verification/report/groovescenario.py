@@ -24,11 +24,12 @@ __all__ = ["TITLE", "WORDS", "outcomes", "scenarios"]
 
 TITLE = "Bundles in the groove"
 WORDS = (
-    "Five fibres of the paper gathered by air in its lateral and its intermediate groove, with contact between fibres, "
+    "Fibres of the paper gathered by air in its lateral and its intermediate groove, with contact between fibres, "
     "friction and a central cylinder, many times with other noise of 1 µm at the start: contact is chaotic, so that "
     "means with intervals of 95 % are what can be compared, single runs are not. Groove, air, ends and core are "
     "assumptions; nothing is fitted to the measured yarns. Twist is that of crossings, half a turn each, which the "
-    "angles at the ends do not bias."
+    "angles at the ends do not bias. A report takes three fibres on elements four times as long for 1.5 ms, a quick "
+    "one two for a blink; ./run report groove-acceptance takes five on the paper's elements for 6 ms."
 )
 NUMBER, PROSE = "number", "prose"
 KINDS = (("continuum", "p3", False), ("discrete", "chord", True))

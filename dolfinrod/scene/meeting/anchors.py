@@ -10,13 +10,16 @@ from numpy.typing import NDArray
 
 from dolfinrod.scene.meeting.curves import Spans, dot
 from dolfinrod.scene.meeting.pressed import Pressed
-from dolfinrod.scene.meeting.spots import MOST_POINTS
+from dolfinrod.scene.meeting.spots import GAUSS, MOST_POINTS
 
 __all__ = ["Anchors", "keys", "matched"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
 Flags = NDArray[np.bool_]
+
+# Points of a spot between two marks.
+PLACES = len(GAUSS[0])
 
 
 def keys(spans: Spans, pressed: Pressed) -> Integers:
@@ -103,12 +106,29 @@ class Anchors:
         known = self.key.astype(np.intp)
         at, found = matched(keys(spans, pressed), known)
         lost = np.flatnonzero(~found)
-        near, found[lost] = self._nearest(spans, pressed, lost)
-        alike, there = matched(known[near] // MOST_POINTS * MOST_POINTS + pressed.index[lost], known)
-        at[lost] = np.where(there, alike, near)
+        if len(lost):
+            near, found[lost] = self._nearest(spans, pressed, lost)
+            alike, there = matched(known[near] // PLACES * PLACES + pressed.index[lost] % PLACES, known)
+            at[lost] = np.where(there, alike, near)
         at, kept = at[found], np.flatnonzero(found)
-        u[kept] = self.u[at] * np.minimum(1.0, self.length[at] / pressed.length[kept])[:, None]
+        u[kept] = self.u[at] * self._shares(keys(spans, pressed)[kept], pressed.length[kept], at)[:, None]
         return u
+
+    def _shares(self, key: Integers, length: Array, at: Integers) -> Array:
+        """What points keep of the anchors that they inherit, shape (n,).
+
+        A spot may lie on both halves of a span, and go from one to the other: what counts is the length of both.
+        """
+        _, spot = np.unique(np.concatenate([key, self.key.astype(np.intp)]) // MOST_POINTS, return_inverse=True)
+        now, before, n = spot[: len(key)], spot[len(key) :], int(spot.max()) + 1
+        long, was = np.bincount(now, length, n), np.bincount(before, self.length, n)
+        share = np.minimum(1.0, was[before[at]] / long[now])
+        # Where halves are displaced differently, what the larger of them would win is taken from both.
+        held, square = before[at] == now, dot(self.u, self.u)
+        won = np.bincount(now[held], (length * share**2 * square[at])[held], n)
+        had = np.bincount(before, self.length * square, n)
+        grown = np.sqrt(np.divide(had, won, out=np.ones(n), where=won > had))
+        return np.asarray(np.where(held, share * grown[now], share))
 
     def _nearest(self, spans: Spans, pressed: Pressed, lost: Integers) -> tuple[Integers, Flags]:
         a, b = pressed.a[lost], pressed.b[lost]

@@ -50,7 +50,8 @@ def intervals(course: Course, near: Neighbours, reach: float) -> tuple[Array, Ar
         reach: Between the surfaces [m].
 
     Returns:
-        Where the intervals begin and end on the spans, equal where there are none, each of shape (n_runs,).
+        Where the intervals begin and end on the first and the second halves of the spans, equal where there are none,
+        each of shape (2, n_runs).
     """
     return _found(*course.curves, course.sag, course.spans.radius, near.on, near.first, near.last, reach)
 
@@ -69,12 +70,13 @@ def _found(
     reach: float,
 ) -> tuple[Array, Array]:
     """As `intervals`; of curves the arrays, as Numba takes longer to see what a record is than the loop."""
-    curves, begins, ends = Curves(c, chord, onward, back), np.zeros(len(on)), np.zeros(len(on))
+    curves, begins, ends = Curves(c, chord, onward, back), np.zeros((2, len(on))), np.zeros((2, len(on)))
     for k in range(len(on)):
         a, ρ = on[k], radius[on[k]] + radius[first[k]] + reach
         u, b, v = _closest_chords(curves, sag, a, first[k], last[k], ρ)
         if b >= 0:
-            begins[k], ends[k] = _interval(curves, a, first[k], last[k], ρ * ρ, u, b, v)
+            found = _interval(curves, a, first[k], last[k], ρ * ρ, u, b, v)
+            begins[0, k], ends[0, k], begins[1, k], ends[1, k] = found
     return begins, ends
 
 
@@ -95,8 +97,8 @@ def _closest_chords(curves: Curves, sag: Array, a: int, first: int, last: int, �
 @compiled
 def _interval(
     curves: Curves, a: int, first: int, last: int, ρ_2: float, u: float, b: int, v: float
-) -> tuple[float, float]:
-    """Where a span comes within reach of a run and where it leaves it; from u to v on b chords are closest."""
+) -> tuple[float, float, float, float]:
+    """Where a span comes within reach of a run and where it leaves it, twice; from u to v on b chords are closest."""
     # Its distance from a rod, a bent curve itself where both run side by side, is looked at in three places, and where
     # it is least between these.
     start, middle, end = (
@@ -104,22 +106,20 @@ def _interval(
         _sampled(curves, a, 0.5, first, last, ρ_2),
         _sampled(curves, a, 1.0, first, last, ρ_2),
     )
-    early = _deepest(curves, a, start, middle, ρ_2, u, b, v)
-    late = _deepest(curves, a, middle, end, ρ_2, u, b, v)
-    places = start, early, middle, late, end
-    one, other = -1, -1
-    for k in range(5):
-        if places[k].inside:
-            one, other = (k if one < 0 else one), k
-    if one < 0:
-        return 0.0, 0.0
-    # Samples are at even places, what lies between them at odd ones: the next sample beyond is out of reach.
-    begins, ends = places[one].u, places[other].u
-    if one > 0:
-        begins = _edge(curves, a, places[one], places[(one - 1) // 2 * 2].u, ρ_2)
-    if other < 4:
-        ends = _edge(curves, a, places[other], places[other // 2 * 2 + 2].u, ρ_2)
-    return begins, ends
+    # One interval over both halves would move all its points at once where one of them is left or reached.
+    if middle.inside:
+        begins = 0.0 if start.inside else _edge(curves, a, middle, 0.0, ρ_2)
+        return begins, 0.5, 0.5, 1.0 if end.inside else _edge(curves, a, middle, 1.0, ρ_2)
+    early = start if start.inside else _deepest(curves, a, start, middle, ρ_2, u, b, v)
+    late = end if end.inside else _deepest(curves, a, middle, end, ρ_2, u, b, v)
+    one_begins = one_ends = other_begins = other_ends = 0.0
+    if early.inside:
+        one_begins = 0.0 if start.inside else _edge(curves, a, early, 0.0, ρ_2)
+        one_ends = _edge(curves, a, early, 0.5, ρ_2)
+    if late.inside:
+        other_begins = _edge(curves, a, late, 0.5, ρ_2)
+        other_ends = 1.0 if end.inside else _edge(curves, a, late, 1.0, ρ_2)
+    return one_begins, one_ends, other_begins, other_ends
 
 
 @compiled
@@ -169,22 +169,43 @@ def _deepest(curves: Curves, a: int, left: Seen, right: Seen, ρ_2: float, u: fl
     Returns:
         The point.
     """
-    low, high, outside = left.u, right.u, not (left.inside or right.inside)
-    between = outside and left.slope < 0.0 and right.slope > 0.0
+    low, high = left.u, right.u
+    if left.inside or right.inside:
+        return Seen(u, b, v, 0.0, 0.0, 0.0, False)
+    # It may fall and rise between them, or only beside one of them, and then fall or rise on to the other.
+    sought = False
+    for place, beside in ((_hollow(left, right), left), (_least(left), left), (_least(right), right)):
+        if not sought and low < place < high:
+            u, b, v, sought = place, beside.b, beside.v, True
+    if not sought and not low < u < high:
+        return Seen(u, b, v, 0.0, 0.0, 0.0, False)
     seen = Seen(u, b, v, 0.0, 0.0, 0.0, False)
-    if not between and not (outside and low < u < high):
-        return seen
-    if between:
-        u = low - left.slope / (right.slope - left.slope) * (high - low)
     for _ in range(CORRECTIONS):
         seen = _look(curves, a, u, seen.b, seen.v, ρ_2)
         low, high = (u, high) if seen.slope < 0.0 else (low, u)
-        to = u - seen.slope / seen.bend if seen.bend > 0.0 else nan
+        to = _least(seen)
         to = to if low < to < high else 0.5 * (low + high)
-        if seen.inside or not between or not abs(to - u) > SETTLED:
+        if seen.inside or not sought or not abs(to - u) > SETTLED:
             break
         u = to
     return seen
+
+
+@compiled
+def _hollow(left: Seen, right: Seen) -> float:
+    """Where the cubic with the values and slopes of two points is least between them; nowhere else."""
+    h = right.u - left.u
+    fall, rise, start = right.f - left.f, h * right.slope, h * left.slope
+    bend, twist = 3.0 * fall - 2.0 * start - rise, start + rise - 2.0 * fall
+    root = bend * bend - 3.0 * twist * start
+    below = bend + sqrt(max(root, 0.0))
+    return left.u - h * start / below if root > 0.0 and below != 0.0 else nan
+
+
+@compiled
+def _least(seen: Seen) -> float:
+    """Where a distance that bends upwards is least, as far as a point tells; nowhere else."""
+    return seen.u - seen.slope / seen.bend if seen.bend > 0.0 else nan
 
 
 @compiled

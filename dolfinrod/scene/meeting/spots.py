@@ -21,8 +21,8 @@ Integers = NDArray[np.intp]
 # The line load of a crossing is a parabola along a rod, but for its depth against the distance of the centrelines; four
 # points integrate its square, the energy, with the first power of that, too.
 GAUSS = 0.5 + 0.5 * np.polynomial.legendre.leggauss(4)[0], 0.5 * np.polynomial.legendre.leggauss(4)[1]
-# A law with one kink more than at its foot, in the mean of two loads.
-MOST_POINTS = 7 * len(GAUSS[0])
+# Two intervals of a law with one kink more than at its foot, in the mean of two loads.
+MOST_POINTS = 15 * len(GAUSS[0])
 
 
 def marks(course: Course, near: Neighbours, law: NormalLaw) -> Array:
@@ -34,14 +34,15 @@ def marks(course: Course, near: Neighbours, law: NormalLaw) -> Array:
         law: Of the load.
 
     Returns:
-        Beginnings and ends of what is within one reach after the other, equal where nothing is: shape (k, 2, n_runs).
+        Beginnings and ends of what is within one reach after the other, two each, equal where nothing is: shape
+        (k, 2, n_runs).
     """
     reaches = [law.g_0, law.g_0 - law.foot] if isinstance(law, SmoothPenalty) else [law.g_0]
-    return np.array([intervals(course, near, reach) for reach in reaches])
+    return np.concatenate([np.stack(intervals(course, near, reach), axis=1) for reach in reaches])
 
 
 def both(marks: Array, others: Array) -> Array:
-    """Marks of two loads whose mean acts; where there is but one of them, of that twice."""
+    """Marks of two loads whose mean acts; where there is but one of an interval, of that twice."""
     one, two = marks[:, 0] < marks[:, 1], others[:, 0] < others[:, 1]
     return np.concatenate([np.where(one[:, None], marks, others), np.where(two[:, None], others, marks)])
 

@@ -1,0 +1,52 @@
+"""How long load steps are: halved where no equilibrium is found, longer again after easy ones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+__all__ = ["EASY", "Stride"]
+
+# A step that took at most so many iterations was easy, and the next may be longer by this factor.
+EASY, GROWTH = 6, 1.5
+# Easy steps before a length that failed is tried again.
+PATIENCE = 4
+
+
+@dataclass
+class Stride:
+    """Length of the next step, from how the last ones went.
+
+    Args:
+        length: That Newton's method is trusted with.
+        failed: Shortest that did not succeed.
+        successes: Steps taken since then.
+        cuts: Failed attempts at the present step.
+        easy: Most iterations of a step that was easy.
+    """
+
+    length: float = np.inf
+    failed: float = np.inf
+    successes: int = 0
+    cuts: int = 0
+    easy: int = EASY
+
+    def fail(self, tried: float) -> None:
+        """Half of what was tried comes next."""
+        self.length, self.failed, self.successes = tried / 2, tried, 0
+        self.cuts += 1
+
+    def succeed(self, tried: float, iterations: int) -> None:
+        """The same comes next, or more after an easy step, up to what failed not long ago."""
+        self.successes += 1
+        grown = GROWTH * tried
+        if self.cuts == 0 and iterations <= self.easy and (grown < self.failed or self.successes >= PATIENCE):
+            self.length = max(self.length, grown)
+        elif self.cuts:
+            self.length = tried
+        self.cuts = 0
+
+    def next(self, distance: float) -> float:
+        """Length of the next step on the way to a target, the rest being cut into equal parts."""
+        return float(distance / np.ceil(distance / self.length * (1 - 1e-9))) if self.length < distance else distance
