@@ -191,6 +191,20 @@ def test_an_interruption_that_a_solver_takes_for_a_failure_is_none(tmp_path, mon
     assert len(ensemble(BRIEF, folder=tmp_path, seeds=range(2)).finished) == 2
 
 
+@pytest.mark.serial
+def test_an_interruption_counts_a_run_that_was_just_written(tmp_path, monkeypatch):
+    write, told = Folder.write, []
+
+    def interrupted(self, *given):
+        write(self, *given)
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(Folder, "write", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        ensemble(BRIEF, folder=tmp_path, seeds=range(2), progress=told.append)
+    assert len(list(tmp_path.glob("*.json"))) == told[-1].done == 1
+
+
 def test_ranks_take_the_longest_first_and_every_run_is_done_once(shared_path, monkeypatch):
     done = []
     solve = Scenario.run
