@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 from dolfinrod.groove.scenario import Scenario
@@ -82,6 +83,14 @@ class Clock:
         self._before = frozenset(self._runs)
         self._doing: Job | None = None
         self._share = 0.0
+
+    def __enter__(self) -> None:
+        """The work begins."""
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        """Ctrl-C may come when a run is written and nothing has been told of it."""
+        if isinstance(error, KeyboardInterrupt):
+            self.tell()
 
     def begin(self, job: Job) -> None:
         """This rank begins a run."""

@@ -110,13 +110,9 @@ def ensemble(
         kept.sweep()
     session, clock = comm.bcast(uuid4().hex, root=0), Clock(kept, asked, comm.size, progress)
     clock.tell()
-    try:
+    with clock:
         _work_off(asked, kept, session, elements, clock)
         return _gathered(kept, tuple(asked), comm, clock)
-    except KeyboardInterrupt:
-        # It may come when a run is written and nothing has been told of it.
-        clock.tell()
-        raise
 
 
 def _work_off(asked: Mapping[str, Job], kept: Folder, session: str, elements: int | None, clock: Clock) -> None:

@@ -205,9 +205,13 @@ def test_force_does_not_jump_where_contact_leaves_the_end_of_a_span(way):
 
 
 @pytest.mark.parametrize("way", [1, -1], ids=["along", "against"])
-@pytest.mark.parametrize("bent", [(-4.0, 2.8, 0.0), (-10.0, 8.7, -1.44, 0.0)], ids=["touches", "touches and leaves"])
+@pytest.mark.parametrize(
+    "bent",
+    [(-4.0, 2.8, 0.0), (-10.0, 8.7, -1.44, 0.0), (28.27, -40.4, 11.13, 0.0)],
+    ids=["touches", "touches and leaves", "touches in the middle, too"],
+)
 def test_force_does_not_jump_where_an_end_comes_to_touch_beside_another_contact(bent, way):
-    """One cubic over a straight line, beyond its reach in the middle, within it at one end, at the other just so."""
+    """One cubic over a straight line, beyond its reach in between, within it at one end, at the other just so."""
     places, lengths = np.linspace(0.0, 1.0, 4), np.array([[0.0, LENGTH]] * 2)
     nodes, forces = np.arange(8).reshape(2, 4), []
     lines = Strands.lagrange(np.arange(2), lengths, nodes, places, np.array([RADIUS, RADIUS]))
