@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum.coupled import CoupledLU
-from dolfinrod.continuum.newton import NEGLIGIBLE, TOLERANCE, Newton, Outcome
+from dolfinrod.continuum.newton import NEGLIGIBLE, STALLED, TOLERANCE, Newton, Outcome
 from dolfinrod.continuum.watch import Unwatched
 
 if TYPE_CHECKING:
@@ -22,8 +22,6 @@ __all__ = ["Chord"]
 
 # Ratio of an increment to the one before, with a kept tangent, beyond which a new one costs less than more iterations.
 SLOW = 0.03
-# A tangent that has served makes increments smaller by more than this, until round-off is what is left.
-STALLED = 0.1
 # A new tangent costs as much as so many iterations with an old one: of few unknowns, where each call has its price, of
 # very many, and how many lie halfway between. To the end it takes so many itself.
 DEAR, DEAREST, HALFWAY = 2.0, 7.0, 1500
@@ -52,14 +50,14 @@ class Chord(Newton):
         self._when_new = self._excess = 0
         n = problem.discretization.n_dofs
         self._dear = DEAR + (DEAREST - DEAR) * n / (n + HALFWAY)
-        self._serves = self._is_fresh = self._stalls = self._contracted = self._lags = self._inherited = False
+        self._serves = self._is_fresh = self._contracted = self._lags = self._inherited = False
 
     def solve(self, last: NDArray[np.float64] | None = None) -> Outcome:
         """State after the step that the problem has begun."""
         h = self.problem.h
         if not abs(h - self._h) <= SAME * h:
             self._serves = False
-        self._stalls = self._contracted = False
+        self._contracted = False
         factorizations = self.factorizations
         outcome = super().solve(last)
         self._age(outcome, is_new=self.factorizations > factorizations)

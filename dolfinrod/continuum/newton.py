@@ -42,6 +42,8 @@ LARGEST_TURN = 2.0
 TOLERANCE = 1e-9
 # Where Newton converges quadratically, an increment this small is known to come next without computing it.
 NEGLIGIBLE = 1e-13
+# An increment above this part of the one before is no Newton step: where nothing moves, it is round-off of the forces.
+STALLED = 0.1
 # Turn in an iteration [rad] beyond which what it presses is found out before anything moves, and in how many trials.
 WIDE, FORESIGHTS = 0.1, 2
 
@@ -62,6 +64,7 @@ class Newton:
         self._pivoting = Pivoting(problem, self._r)
         self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
         self._size = self._next = self._moved = np.inf
+        self._stalls = False
         self._open()
 
     def _open(self) -> None:
@@ -102,7 +105,7 @@ class Newton:
         """A zero of the residual, in so many iterations at most, the last of this size."""
         self._most, self._fine, self._foresights = most, fine, FORESIGHTS if most == DIRECT else 0
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
-        self._size = self._next = np.inf
+        self._size, self._next, self._stalls = np.inf, np.inf, False
         self._watch = self._watched(last)
         self._pivoting.begin(fine)
         reason = self._run()
@@ -210,10 +213,13 @@ class Newton:
 
     def _expected(self, before: float, size: float) -> float:
         """Next increment after these two: quadratic, with their ratio, never taken below 1."""
+        self._stalls = isfinite(before) and size > STALLED * before
         return size**2 * max(1.0, size / before**2) if isfinite(before) else np.inf
 
     def _settled(self) -> bool:
         """Whether no further increment matters."""
+        if self._stalls and self._moved < NEGLIGIBLE:
+            return True
         if self._fine > TOLERANCE:
             return self._size < self._fine and not (self._fine < ROUGH and self._touches_anew)
         return (self._size < TOLERANCE or self._next < NEGLIGIBLE) and not self._touches_anew

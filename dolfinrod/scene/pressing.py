@@ -65,6 +65,8 @@ class Pressing:
         self.law = self._full if by == self._firm else self._full.softened(by / self._firm)
         self._led: tuple[Flags, Array, Array, Array] | None = None
         self._foreseen: tuple[Flags, Array] | None = None
+        # Points that a linear step has been found to let go: they touch no more, however near they are.
+        self._open = np.zeros(len(self._radius), dtype=bool)
 
     def at(self, X: Array, gap: Array, λ: Array, torn: Flags) -> tuple[Array, Array, Flags, Array]:
         """Pressures at the end of a step.
@@ -85,7 +87,8 @@ class Pressing:
             pressed, expected = (p > 0.0) | self._kept, np.maximum(p, 0.0)
         else:
             pressed, expected = followed(p, torn, X, *self._led)
-        return (*self._grazing(p, slope, pressed, gap), expected)
+            self._open = self._open | (self._led[0] & ~pressed)
+        return (*self._grazing(p, slope, pressed, np.where(self._open, np.inf, gap)), expected)
 
     def _grazing(self, p: Array, slope: Array, pressed: Flags, gap: Array) -> tuple[Array, Array, Flags]:
         """What just touches is about to be pressed: without its stiffness a rod that lies on a wall would be free."""
@@ -140,7 +143,7 @@ class Pressing:
         """Let these be the points that are pressed at the end of that step; none are asked about where none is open."""
         X_0, p, p_X = self._onward
         if len(pressed) == len(p):
-            self._led = pressed, X_0, p, p_X
+            self._led, self._open = (pressed, X_0, p, p_X), ~pressed
 
     def enough(self, p: Array, gap: Array) -> bool:
         """Whether multipliers need no renewal; where the last one did little, the law is made firmer for good.

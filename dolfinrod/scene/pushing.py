@@ -20,7 +20,7 @@ GRAZING = 1e-9
 def followed(p: Array, torn: Flags, X: Array, was: Flags, X_0: Array, p_0: Array, p_X: Array) -> tuple[Flags, Array]:
     """What stays pressed after a linear step from X_0, and under which pressure its normals turn.
 
-    That is p₀ + ∂p/∂X (X − X₀) for what was pressed, which stays as long as that is above zero or it is torn; the
+    That is p₀ + ∂p/∂X (X − X₀) for what was pressed, which stays as long as that is not below zero or it is torn; the
     rest is pressed where its gap makes p positive.
     """
     pressed, expected = p > 0.0, np.zeros(len(p))
@@ -29,7 +29,7 @@ def followed(p: Array, torn: Flags, X: Array, was: Flags, X_0: Array, p_0: Array
             hoped = p_0[i]
             for j in range(3):
                 hoped += p_X[i, j] * (X[i, j] - X_0[i, j])
-            pressed[i], expected[i] = hoped > 0.0 or torn[i], max(hoped, 0.0)
+            pressed[i], expected[i] = hoped >= 0.0 or torn[i], max(hoped, 0.0)
     return pressed, expected
 
 

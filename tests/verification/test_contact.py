@@ -7,8 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dolfinrod.scene import AugmentedLagrangian
 from verification.contact import contactstudy
 from verification.contacts import NORMAL
+from verification.contacts.cylinders import wound
+from verification.contacts.runs import DISCRETE, PLANE, SPACE, touch
 from verification.contacttrials import CONTACT
 from verification.references.contact import edges, solved_anew, touching, value, wound_evenly
 from verification.references.contactposed import FALLS, POSED, WALLS, WOUND, quantities
@@ -84,6 +87,19 @@ def test_a_rigid_wall_is_found_in_few_iterations_a_step(beta, model):
     assert record.failure is None
     assert record.cuts == 0
     assert record.iterations <= 6 * record.steps
+
+
+@pytest.mark.parametrize("tolerance", [1e-8, 1e-11])
+@pytest.mark.parametrize("model", [PLANE, SPACE, DISCRETE], ids=lambda model: model.name)
+def test_multipliers_are_found_on_fine_meshes(model, tolerance):
+    """On walls so stiff that the round-off of positions is more of the forces than what ends an iteration elsewhere."""
+    found = model.solve(wound(WOUND["180"], AugmentedLagrangian(1e8, tolerance)), 300)
+    one = touch(found)
+    pressed, gap = one.pressure[-1] > 0.0, one.gap[-1]
+    assert np.abs(gap[pressed]).max() <= tolerance
+    assert gap[~pressed].min() > -tolerance
+    assert sum(log.cuts for log in found.log) == 0
+    assert sum(log.iterations for log in found.log) <= 12 * len(found.log)
 
 
 def test_a_wrong_reference_is_missed():

@@ -12,6 +12,7 @@ from dolfinrod.scene import (
     Cylinder,
     Guide,
     Penalty,
+    Planar,
     PointForce,
     Rod,
     Scene,
@@ -21,6 +22,7 @@ from dolfinrod.scene import (
 from dolfinrod.scene.pressure import NormalLaw
 from verification.contactcase import ContactCase
 from verification.contacts.runs import DISCRETE, PLANE, RADIUS, SPACE, THIN, marks, on_meshes, pressed, stiffer, touch
+from verification.models import Continuum
 from verification.references.contact import edges, touching, value, wound_evenly
 from verification.references.contactposed import WOUND, Wound
 from verification.references.moving import Moving, exact
@@ -38,6 +40,9 @@ TIGHT = Penalty.tight()
 # In one step the rod could come out on the other side of the cylinder.
 STEPS = 8
 STIFFER = (1_000, 10_000, 100_000)
+# Of the radius, what multipliers leave of penetration: over the square of the distance of nodes it is a curvature.
+CLOSE = 1e-11
+HIGH = Continuum(5, Planar())
 NODE = "a node where contact ends"
 TABLED = {"120": "Lib-stiffrod-F4.0-R1.0-EI1.0-120", "180": "Lib-stiffrod-F1.0-R1.0-EI1.0-180"}
 
@@ -147,7 +152,8 @@ def wound_rigid(turn: str) -> ContactCase:
     found = touching(name, "T_contact", "point_force", "contact_angle")
     T, point, contact = found.value
     reference = Moving(found.id, (T, -1.0, point + 0.5 * T * contact), found.method, found.source, 14)
-    multiplied = wound(half, AugmentedLagrangian(1e8, 1e-8))
+    law = AugmentedLagrangian(1e8, CLOSE)
+    multiplied, noded = wound(half, law), wound(half, law, 0.5 * contact * half.radius)
     return ContactCase(
         name=f"contact-wound-{turn}-rigid",
         title=f"Stiff rod bent by {turn}° over a rigid cylinder",
@@ -157,12 +163,15 @@ def wound_rigid(turn: str) -> ContactCase:
         runs=(
             stiffer(PLANE, lambda ε: wound(half, Penalty(ε)), 400, STIFFER, order=0.5, quick=turn == "120"),
             stiffer(DISCRETE, lambda ε: wound(half, Penalty(ε)), 400, STIFFER, limit=1e-2),
-            on_meshes(PLANE, multiplied, (50, 100, 200), limit=1e-3, words="multipliers"),
+            on_meshes(PLANE, multiplied, (100, 200, 400), limit=1e-4, order=1.5, words="multipliers"),
+            on_meshes(HIGH, noded, (25,), limit=1e-6, words=f"multipliers, {NODE}"),
             on_meshes(DISCRETE, multiplied, (100, 200), limit=1e-3, words="multipliers"),
         ),
         quantity="tension and moment at the crest, ∫ p ds: two point forces and T/R between; N, N m, N",
         read=rigid_found,
-        note="Two point forces where the rod lifts off are spread over a length (EI/ε_N)^¼ where the wall yields.",
+        note="Two point forces where the rod lifts off are spread over a length (EI/ε_N)^¼ where the wall yields. "
+        "With multipliers, moments are as right as the penetration allowed over the square of the distance of nodes: "
+        "1e-11 of the radius leaves 4e-6 of them on 50 elements of degree 5 that are right to 1e-6 on 25.",
     )
 
 
