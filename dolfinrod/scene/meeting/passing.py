@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.meeting.crossing import meet
 from dolfinrod.scene.meeting.curves import Course, between, dot, travel
 from dolfinrod.scene.meeting.facing import look
 from dolfinrod.scene.meeting.projection import between_chords
-from dolfinrod.scene.rubbing import cross
 
 __all__ = ["passes"]
 
@@ -19,8 +19,6 @@ Integers = NDArray[np.intp]
 LOOKS = 3
 # A span is cut until its pieces are straight to this part of a radius; round-off of a distance against a radius.
 STRAIGHT, GRAZING = 0.1, 1e-6
-# Halvings of a time between 0 and 1, to the last bit.
-HALVINGS = 52
 
 
 def passes(start: Course, end: Course, a: Integers, b: Integers) -> bool:
@@ -68,53 +66,6 @@ def _beside(start: Course, end: Course, a: Integers, b: Integers) -> bool:
 def _across(start: Course, end: Course, a: Integers, b: Integers, sag: Array) -> bool:
     """Whether centrelines meet on the way, their pieces taken as straight."""
     radius = start.spans.radius
-    k = int(np.ceil(np.sqrt((np.maximum(sag[a], sag[b]) / (STRAIGHT * np.minimum(radius[a], radius[b]))).max())))
-    k = max(k, 1)
-    part = np.arange(k) / k
-    i, j = (np.tile(np.repeat(np.arange(k), k), len(a)), np.tile(np.arange(k), k * len(a)))
-    a, b = np.repeat(a, k * k), np.repeat(b, k * k)
-    ends = [
-        np.stack([course.place(span, part[at] + step) for course in (start, end)])
-        for span, at in ((a, i), (b, j))
-        for step in (0.0, 1.0 / k)
-    ]
-    (A, A_1), (B, B_1), (C, C_1) = (
-        (p[0], p[1] - p[0]) for p in (ends[1] - ends[0], ends[3] - ends[2], ends[2] - ends[0])
-    )
-    reach = GRAZING * (radius[a] + radius[b])
-
-    def volume(P: Array, Q: Array, R: Array) -> Array:
-        return dot(P, cross(Q, R))
-
-    cubic = np.stack(
-        [
-            volume(A, B, C),
-            volume(A_1, B, C) + volume(A, B_1, C) + volume(A, B, C_1),
-            volume(A_1, B_1, C) + volume(A_1, B, C_1) + volume(A, B_1, C_1),
-            volume(A_1, B_1, C_1),
-        ]
-    )
-    of, τ = _roots(cubic)
-    here = [(1.0 - τ)[:, None] * p[0, of] + τ[:, None] * p[1, of] for p in ends]
-    _, _, square = between_chords(here[0], here[1] - here[0], here[2], here[3] - here[2])
-    return bool((square <= reach[of] ** 2).any())
-
-
-def _roots(cubic: Array) -> tuple[Integers, Array]:
-    """Where cubics, coefficients of shape (4, n), change sign between 0 and 1: their numbers and the places."""
-    c_1, c_2, c_3 = cubic[1], 2.0 * cubic[2], 3.0 * cubic[3]
-    q = -0.5 * (c_2 + np.copysign(np.sqrt(np.maximum(c_2**2 - 4.0 * c_1 * c_3, 0.0)), c_2))
-    turns = [np.divide(x, y, out=np.zeros_like(q), where=np.abs(y) > np.abs(x)) for x, y in ((q, c_3), (c_1, q))]
-    marks = np.sort(np.clip(np.stack([np.zeros_like(q), *turns, np.ones_like(q)]), 0.0, 1.0), axis=0)
-    values = _value(cubic, marks)
-    piece, of = np.nonzero(np.sign(values[:-1]) * np.sign(values[1:]) < 0.0)
-    low, high, falls = marks[piece, of], marks[piece + 1, of], values[piece, of] > 0.0
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        before = (_value(cubic[:, of], middle) > 0.0) == falls
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return of, 0.5 * (low + high)
-
-
-def _value(cubic: Array, τ: Array) -> Array:
-    return np.asarray(cubic[0] + τ * (cubic[1] + τ * (cubic[2] + τ * cubic[3])))
+    bent = np.maximum(sag[a], sag[b]) / (STRAIGHT * np.minimum(radius[a], radius[b]))
+    pieces = np.maximum(np.ceil(np.sqrt(bent)), 1.0).astype(np.intp)
+    return meet(start.c, end.c, a, b, pieces, GRAZING * (radius[a] + radius[b]))

@@ -14,7 +14,7 @@ from dolfinrod.scene.errors import SceneError
 from dolfinrod.scene.quantity import UNIT, Vector, VectorLike, assign, direction, nonnegative, positive, vector
 from dolfinrod.scene.surfaces.faces import parts
 from dolfinrod.scene.surfaces.nearest import beside_groove
-from dolfinrod.scene.surfaces.polyline import ROUND_OFF, points, refuse_axis
+from dolfinrod.scene.surfaces.polyline import points, refuse_axis
 from dolfinrod.scene.surfaces.profile import Profile
 from dolfinrod.scene.surfaces.sections import flanked, rounded
 from dolfinrod.scene.surfaces.surface import Closest
@@ -205,18 +205,18 @@ class Groove:
         return Profile.through(np.asarray(self.profile), self.fillet)
 
     @cached_property
-    def _given(self) -> tuple[Array, Array, float, float]:
+    def _given(self) -> tuple[Array, Array, float]:
         """What `beside_groove` is told of it besides its section."""
         axis, up = np.asarray(self.axis), np.asarray(self.up)
         roller = inf if self.roller is None else self.roller
-        return np.asarray(self.point), np.stack([axis, np.cross(axis, up), up]), roller, ROUND_OFF * roller
+        return np.asarray(self.point), np.stack([axis, np.cross(axis, up), up]), roller
 
     def closest(self, x: Array) -> Closest:
         """See `Surface.closest`.
 
         The curvature around a roller is n_y/ρ with the distance ρ to its axis; on the axis it is taken as zero.
         """
-        return Closest(*beside_groove(np.ascontiguousarray(x), *self._given, self._section.pieces))
+        return Closest(*beside_groove(np.ascontiguousarray(x), *self._given, *self._section.pieces))
 
 
 def _upright(axis: VectorLike, up: VectorLike) -> tuple[Vector, Vector]:

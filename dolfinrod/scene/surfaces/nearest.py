@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.scene.compiled import compiled
+from dolfinrod.scene.surfaces.polyline import ROUND_OFF
 
 __all__ = ["beside_axis", "beside_groove", "beside_profile"]
 
 Array = NDArray[np.float64]
 Near = tuple[Array, Array, Array]
-Pieces = tuple[Array, Array, Array, Array, Array, float]
 
 
 @compiled
@@ -131,40 +131,49 @@ def beside_profile(
 
 
 @compiled
-def beside_groove(x: Array, point: Array, axes: Array, roller: float, grazing: float, pieces: Pieces) -> Near:
+def beside_groove(
+    x: Array,
+    point: Array,
+    axes: Array,
+    roller: float,
+    start: Array,
+    along: Array,
+    length: Array,
+    centre: Array,
+    radius: Array,
+    close: float,
+) -> Near:
     """What a groove is to points; around a roller the nearest place lies in the plane through its axis.
 
     Args:
         x: Shape (n, 3) [m].
         point: Where (0, 0) of its section is [m].
         axes: Along the groove, to the right and up, as rows.
-        roller: Radius of the roller; ∞: none [m].
-        grazing: Distance from the axis of the roller that is round-off [m].
-        pieces: Of its section: start, along, length, centre, radius and close as `beside_profile`.
+        roller: Radius of the roller, or ∞ [m].
+        start: Of its section; this and what follows as `beside_profile`.
+        along: Likewise.
+        length: Likewise.
+        centre: Likewise.
+        radius: Likewise.
+        close: Likewise.
 
     Returns:
         As `Closest`.
     """
-    start, along, length, centre, radius, close = pieces
-    n = len(x)
-    φ, normal, curvature = np.empty(n), np.empty((n, 3)), np.zeros((n, 3, 3))
-    for i in range(n):
-        z, y, forth, back, turn = _section(x, i, point, axes, roller, grazing)
+    φ, normal, curvature = np.empty(len(x)), np.empty((len(x), 3)), np.zeros((len(x), 3, 3))
+    for i in range(len(x)):
+        z, y, forth, back, turn = _section(x, i, point, axes, roller)
         best, φ[i] = _nearest(z, y, start, along, length, centre, radius)
         n_z, n_y, bend = _normal(best, z, y, along, centre, close)
         for j in range(3):
             normal[i, j] = n_z * axes[1, j] + n_y * (forth * axes[2, j] + back * axes[0, j])
-        if bend != 0.0:
-            _add_square(curvature, i, bend, axes, -n_y, n_z * forth, n_z * back)
-        if turn != 0.0:
-            _add_square(curvature, i, n_y * turn, axes, 0.0, -back, forth)
+        _add_square(curvature, i, bend, axes, -n_y, n_z * forth, n_z * back)
+        _add_square(curvature, i, n_y * turn, axes, 0.0, -back, forth)
     return φ, normal, curvature
 
 
 @compiled
-def _section(
-    x: Array, i: int, point: Array, axes: Array, roller: float, grazing: float
-) -> tuple[float, float, float, float, float]:
+def _section(x: Array, i: int, point: Array, axes: Array, roller: float) -> tuple[float, float, float, float, float]:
     """Where point i is in the section, (z, y); the direction out of the roller there, by up and along; and 1/ρ.
 
     On the axis of the roller the curvature around it is taken as zero.
@@ -176,7 +185,7 @@ def _section(
         return z, y, 1.0, 0.0, 0.0
     forward, height = d_0 * axes[0, 0] + d_1 * axes[0, 1] + d_2 * axes[0, 2], y + roller
     ρ = hypot(forward, height)
-    if ρ <= grazing:
+    if ρ <= ROUND_OFF * roller:
         return z, ρ - roller, 1.0, 0.0, 0.0
     return z, ρ - roller, height / ρ, forward / ρ, 1.0 / ρ
 
@@ -184,6 +193,8 @@ def _section(
 @compiled
 def _add_square(curvature: Array, i: int, size: float, axes: Array, right: float, up: float, along: float) -> None:
     """Add size a⊗a with a vector a by its components."""
+    if size == 0.0:
+        return
     for j in range(3):
         a_j = right * axes[1, j] + up * axes[2, j] + along * axes[0, j]
         for k in range(3):
