@@ -76,9 +76,9 @@ def loop_cases(loop: Loop) -> tuple[ContactCase, ContactCase]:
     """A rope below its limit: what slips, and what that costs."""
     string, name = loop.string, f"{loop.mu:g}-{loop.degrees:g}-{loop.part:g}"
     ways = (string.raised, string.pulled(loop.strong), string.back(loop.strong), string.pulled(loop.strong))
-    plane, discrete = (
+    plane, finer, discrete = (
         lambda steps, model=model, elements=elements: model.solve(loop.scene(steps), elements)
-        for model, elements in ((PLANE, 16), (DISCRETE, 64))
+        for model, elements in ((PLANE, 16), (PLANE, 32), (DISCRETE, 64))
     )
     return (
         ContactCase(
@@ -106,10 +106,10 @@ def loop_cases(loop: Loop) -> tuple[ContactCase, ContactCase]:
             quantity="∮ T du, J",
             read=loop.lost,
             runs=(
-                ContactRun("continuum", "P3 planar, 16 elements", plane, (4, 8), "steps a stage", limit=1e-2),
-                ContactRun("discrete", "64 elements", discrete, (4, 8), "steps a stage", limit=1e-2),
+                ContactRun("continuum", "P3 planar, 32 elements", finer, (8, 32), "steps a stage", limit=2e-2),
+                ContactRun("discrete", "64 elements", discrete, (8, 32), "steps a stage", limit=2e-2),
             ),
-            note=ANCHORS,
+            note="Anchors give back what they have yielded: 1.6 % of the loss where μ = 0.3, in both models and on any mesh.",
         ),
     )
 
@@ -154,7 +154,8 @@ CASES = (
         limit_case(Wrap(mu, degrees, TILTED), " along a helix", (16, 32), 1e-6, THICKNESS)
         for mu, degrees in ((0.3, 360.0), (0.64, 360.0), (0.1, 540.0), (0.3, 540.0))
     ),
-    limit_case(Wrap(0.64, 540.0, TILTED), " along a helix", (12, 16), 1e-4, THICKNESS),
+    # Friction that holds 400 times the tension: on 12 and 24 elements load steps are cut again and again.
+    limit_case(Wrap(0.64, 540.0, TILTED), " along a helix", (16, 48), 1e-4, THICKNESS),
     limit_case(Wrap(0.3, 180.0, epsilon=1e-3), " of a thick rope", (16, 32), 1e-6, COUPLES),
     limit_case(Wrap(0.3, 180.0, weight=1.0 / 3.0), " of a heavy rope", (8, 16), 5e-5, HEAVY),
     polygon_case(Wrap(0.3, 180.0)),
