@@ -28,6 +28,8 @@ LOWEST = 1e-16
 KINDS = {"continuum": ("p4", "p3", "p5", "p2"), "discrete": ("chord", "paper", "p1")}
 # Levels, and error of the coarsest, from which a picture says more than the table.
 ENOUGH, WORTH = 3, 1e-10
+# Least order that a picture names: errors that grow are round-off.
+LEAST_NAMED = 0.01
 
 
 def contact_cases(found: Sequence[ContactStudy]) -> str:
@@ -68,7 +70,7 @@ def _drawn(members: Sequence[ContactStudy], x: str, title: str, *, timed: bool) 
                 x=tuple(r.ms if timed else float(r.level) for r in good),
                 y=tuple(max(r.error, LOWEST) for r in good),
                 title=f"{s.model}, {s.label}: order {power(s.order)}",
-                label="" if timed or s.order is None else power(s.order),
+                label="" if timed or s.order is None or s.order < LEAST_NAMED else power(s.order),
             )
         )
     return log_log(curves, x=x, y="relative error", alt=f"{title}: relative error over {x}")

@@ -11,7 +11,7 @@ from verification.report.canvas import HEIGHT, WIDTH, svg, text
 
 __all__ = ["Trace", "linear"]
 
-LEFT, RIGHT, TOP, BOTTOM = 52, 14, 26, 40
+LEFT, RIGHT, TOP, BOTTOM = 60, 14, 26, 40
 # About how many ticks an axis has.
 TICKS = 5
 
@@ -82,7 +82,7 @@ def linear(traces: Sequence[Trace], x: str, y: str, rows: Sequence[tuple[float, 
 def _spread(values: Sequence[float], margin: float) -> tuple[float, float]:
     """Range of values with a margin, at least a little wide."""
     low, high = min(values), max(values)
-    wide = max(high - low, 1e-9 * max(abs(low), abs(high), 1.0))
+    wide = max(high - low, 1e-9 * max(abs(low), abs(high))) or 1.0
     return low - margin * wide, high + margin * wide
 
 
