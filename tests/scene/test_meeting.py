@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 import dolfinrod as dr
 from dolfinrod.scene.meeting import Coupling, Meeting, Strands
+from dolfinrod.scene.meeting.facing import look
 from dolfinrod.scene.rodcontact import RodContact
 from tests.scenes import Pose, largest, poses
 
@@ -221,6 +222,28 @@ def test_force_does_not_jump_where_an_end_comes_to_touch_beside_another_contact(
         forces.append(force(met(x, replace(lines, spans=1)), x))
     assert largest(forces[0]) > 0.01 * STIFF * HALO * LENGTH
     assert largest(forces[1] - forces[0]) <= 1e-9 * largest(forces[0])
+
+
+def side_by_side(seed: int) -> Array:
+    """Rods that touch in many places, between which they draw apart."""
+    rng = np.random.default_rng(seed)
+    rods = straight(0.0, 0.0), straight(rng.uniform(0.0, 0.02), 2 * RADIUS + 0.5 * HALO, rng.uniform(-0.06, 0.06))
+    return np.concatenate([rod + rng.normal(scale=HALO, size=rod.shape) * [3.0, 1.0, 1.0] for rod in rods])
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_all_that_is_within_reach_is_looked_at(seed):
+    """Loads of every span against the midpoint rule on points that are many and everywhere."""
+    x, n = side_by_side(seed), 400
+    meeting = met(x, strands("smooth"))
+    pressed, near, spans = meeting._pressed, meeting._near, meeting._spans
+    on, first, last = (np.repeat(runs, n) for runs in (near.on, near.first, near.last))
+    there = look(spans.course(x), on, np.tile((np.arange(n) + 0.5) / n, len(near.on)), first, last)
+    depth = 2 * RADIUS + HALO - np.linalg.norm(there.d, axis=1)
+    depth[(depth < 0.0) | (there.b < first) | (there.b > last)] = 0.0
+    expected = np.bincount(on, 0.5 * STIFF * depth * spans.length[on] / n, len(spans.length))
+    found = np.bincount(pressed.a, pressed.p * pressed.length, len(spans.length))
+    assert largest(found - expected) <= 0.02 * largest(expected)
 
 
 def test_a_rod_touches_itself_only_where_a_loop_closes():

@@ -58,7 +58,7 @@ def sampled(curves: Curves, a: int, u: float, first: int, last: int, ρ_2: float
 
 
 @compiled
-def deepest(curves: Curves, a: int, left: Seen, right: Seen, ρ_2: float, u: float, b: int, v: float) -> Seen:
+def deepest(curves: Curves, a: int, left: Seen, right: Seen, ρ_2: float, near: Seen) -> Seen:
     """Where between two samples beyond reach the distance is least, or a point within reach on the way there.
 
     Args:
@@ -67,24 +67,21 @@ def deepest(curves: Curves, a: int, left: Seen, right: Seen, ρ_2: float, u: flo
         left: The one sample.
         right: The other.
         ρ_2: Square of the reach [m²].
-        u: Where chords are closest, to look there if the slopes of the samples do not tell.
-        b: Likewise, on the span opposite.
-        v: Likewise.
+        near: Where chords are closest, to look there if the slopes of the samples do not tell.
 
     Returns:
         The point.
     """
     low, high = left.u, right.u
-    if left.inside or right.inside:
-        return Seen(u, b, v, 0.0, 0.0, 0.0, False)
+    u, b, v = near.u, near.b, near.v
     # It may fall and rise between them, or only beside one of them, and then fall or rise on to the other.
     sought = False
     for place, beside in ((_turns(left, right)[0], left), (_least(left), left), (_least(right), right)):
         if not sought and low < place < high:
             u, b, v, sought = place, beside.b, beside.v, True
-    if not sought and not low < u < high:
-        return Seen(u, b, v, 0.0, 0.0, 0.0, False)
     seen = Seen(u, b, v, 0.0, 0.0, 0.0, False)
+    if not sought and not low < u < high:
+        return seen
     for _ in range(CORRECTIONS):
         seen = _look(curves, a, u, seen.b, seen.v, ρ_2)
         low, high = (u, high) if seen.slope < 0.0 else (low, u)

@@ -20,11 +20,14 @@ from dolfinrod.scene.meeting.vectors import row
 if TYPE_CHECKING:
     from dolfinrod.scene.meeting.neighbours import Neighbours
 
-__all__ = ["intervals"]
+__all__ = ["MOST", "intervals"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
 Flags = NDArray[np.bool_]
+
+# Intervals of half a span: in each half of it one on either side of what is out of reach.
+MOST = 4
 
 
 def intervals(course: Course, near: Neighbours, reach: float) -> tuple[Array, Array]:
@@ -36,8 +39,8 @@ def intervals(course: Course, near: Neighbours, reach: float) -> tuple[Array, Ar
         reach: Between the surfaces [m].
 
     Returns:
-        Where the intervals begin and end, two on the first and two on the second halves of the spans, equal where there
-        are none, each of shape (4, n_runs).
+        Where the intervals begin and end, first those on the first halves of the spans, then those on the second,
+        equal where there are none, each of shape (2 MOST, n_runs).
     """
     return _found(*course.curves, course.sag, course.spans.radius, near.on, near.first, near.last, reach)
 
@@ -56,22 +59,19 @@ def _found(
     reach: float,
 ) -> tuple[Array, Array]:
     """As `intervals`; of curves the arrays, as Numba takes longer to see what a record is than the loop."""
-    curves, begins, ends = Curves(c, chord, onward, back), np.zeros((4, len(on))), np.zeros((4, len(on)))
+    curves = Curves(c, chord, onward, back)
+    begins, ends = np.zeros((2 * MOST, len(on))), np.zeros((2 * MOST, len(on)))
     for k in range(len(on)):
         a, ρ = on[k], radius[on[k]] + radius[first[k]] + reach
         u, b, v = _closest_chords(curves, sag, a, first[k], last[k], ρ)
         if b >= 0:
-            # Its distance from a rod, a bent curve itself where both run side by side, is looked at in three places,
-            # and where it is least or greatest between these. One interval over both halves, or over what is out of
-            # reach between two places of touch, would move all its points at once where one of them is left or reached.
-            ρ_2 = ρ * ρ
+            near, ρ_2 = Seen(u, b, v, 0.0, 0.0, 0.0, False), ρ * ρ
             left = sampled(curves, a, 0.0, first[k], last[k], ρ_2)
             for half in range(2):
-                right = sampled(curves, a, 0.5 * (half + 1), first[k], last[k], ρ_2)
-                top = farthest(curves, a, left, right, ρ_2)
-                begins[2 * half, k], ends[2 * half, k] = _part(curves, a, left, top, ρ_2, u, b, v)
-                if top.u < right.u:
-                    begins[2 * half + 1, k], ends[2 * half + 1, k] = _part(curves, a, top, right, ρ_2, u, b, v)
+                middle = sampled(curves, a, 0.5 * half + 0.25, first[k], last[k], ρ_2)
+                right = sampled(curves, a, 0.5 * half + 0.5, first[k], last[k], ρ_2)
+                some = slice(MOST * half, MOST * (half + 1))
+                _fill(curves, a, left, middle, right, ρ_2, near, begins[some, k], ends[some, k])
                 left = right
     return begins, ends
 
@@ -91,11 +91,39 @@ def _closest_chords(curves: Curves, sag: Array, a: int, first: int, last: int, �
 
 
 @compiled
-def _part(
-    curves: Curves, a: int, left: Seen, right: Seen, ρ_2: float, u: float, b: int, v: float
-) -> tuple[float, float]:
-    """Where a part of a span with one place of touch at most is within reach; from u to v on b chords are closest."""
-    deep = left if left.inside else right if right.inside else deepest(curves, a, left, right, ρ_2, u, b, v)
+def _fill(
+    curves: Curves,
+    a: int,
+    left: Seen,
+    middle: Seen,
+    right: Seen,
+    ρ_2: float,
+    near: Seen,
+    begins: Array,
+    ends: Array,
+) -> None:
+    """Intervals of half a span, as many as there are places of touch that lie apart.
+
+    Its distance from a rod, a bent curve itself where both run side by side, is looked at in three places, and where it
+    is least or greatest between these. One interval over both halves, or over what is out of reach between two places
+    of touch, would move all its points at once where one of them is left or reached.
+    """
+    n = 0
+    for one, other in ((left, middle), (middle, right)):
+        top = farthest(curves, a, one, other, ρ_2)
+        for p, q in ((one, top), (top, other)):
+            first, last = _part(curves, a, p, q, ρ_2, near)
+            if first < last:
+                # What is within reach goes on where the part before has ended.
+                if not (p.inside and n > 0 and ends[n - 1] == first):
+                    begins[n], n = first, n + 1
+                ends[n - 1] = last
+
+
+@compiled
+def _part(curves: Curves, a: int, left: Seen, right: Seen, ρ_2: float, near: Seen) -> tuple[float, float]:
+    """Where a part of a span with one place of touch at most is within reach; near it the chords are closest."""
+    deep = left if left.inside else right if right.inside else deepest(curves, a, left, right, ρ_2, near)
     if not deep.inside:
         return left.u, left.u
     begins = left.u if left.inside else edge(curves, a, deep, left.u, ρ_2)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.curves import Course
-from dolfinrod.scene.meeting.intervals import intervals
+from dolfinrod.scene.meeting.intervals import MOST, intervals
 from dolfinrod.scene.meeting.neighbours import Neighbours
 from dolfinrod.scene.pressure import NormalLaw, SmoothPenalty
 
@@ -21,8 +21,8 @@ Integers = NDArray[np.intp]
 # The line load of a crossing is a parabola along a rod, but for its depth against the distance of the centrelines; four
 # points integrate its square, the energy, with the first power of that, too.
 GAUSS = 0.5 + 0.5 * np.polynomial.legendre.leggauss(4)[0], 0.5 * np.polynomial.legendre.leggauss(4)[1]
-# Four intervals of a law with one kink more than at its foot, in the mean of two loads.
-MOST_POINTS = 31 * len(GAUSS[0])
+# As many intervals of a law with one kink more than at its foot, in the mean of two loads.
+MOST_POINTS = (2 * 2 * 2 * 2 * MOST - 1) * len(GAUSS[0])
 
 
 def marks(course: Course, near: Neighbours, law: NormalLaw) -> Array:
@@ -34,7 +34,7 @@ def marks(course: Course, near: Neighbours, law: NormalLaw) -> Array:
         law: Of the load.
 
     Returns:
-        Beginnings and ends of what is within one reach after the other, four each, equal where nothing is: shape
+        Beginnings and ends of what is within one reach after the other, equal where nothing is: shape
         (k, 2, n_runs).
     """
     reaches = [law.g_0, law.g_0 - law.foot] if isinstance(law, SmoothPenalty) else [law.g_0]
