@@ -205,18 +205,18 @@ class Groove:
         return Profile.through(np.asarray(self.profile), self.fillet)
 
     @cached_property
-    def _given(self) -> tuple[Array, Array, float]:
-        """What `beside_groove` is told of it besides its section."""
+    def _given(self) -> tuple[Array, Array, float, Array, Array, Array, Array, Array, float]:
+        """What `beside_groove` is told of it."""
         axis, up = np.asarray(self.axis), np.asarray(self.up)
         roller = inf if self.roller is None else self.roller
-        return np.asarray(self.point), np.stack([axis, np.cross(axis, up), up]), roller
+        return np.asarray(self.point), np.stack([axis, np.cross(axis, up), up]), roller, *self._section.pieces
 
     def closest(self, x: Array) -> Closest:
         """See `Surface.closest`.
 
         The curvature around a roller is n_y/ρ with the distance ρ to its axis; on the axis it is taken as zero.
         """
-        return Closest(*beside_groove(np.ascontiguousarray(x), *self._given, *self._section.pieces))
+        return Closest(*beside_groove(np.ascontiguousarray(x), *self._given))
 
 
 def _upright(axis: VectorLike, up: VectorLike) -> tuple[Vector, Vector]:
