@@ -85,7 +85,7 @@ def moved(
     def take(now: Moving, t: float) -> Taken:
         return method.take(now, t, laws.over(t - now.t))
 
-    march = March(timed, state, trajectory.entry, take, trajectory.accept)
+    march = March(timed, state, trajectory.entry, take, trajectory.accept, cut.units.length)
     return _followed(scene, march, trajectory, (cut, chosen), begun, progress, file)
 
 

@@ -51,6 +51,7 @@ def motion_of(march: March, trajectory: Trajectory, seconds: float) -> Arrays:
     """
     mark, last, (iterations, factorizations, earlier) = march.mark, trajectory.last(), trajectory.work
     arrays = _work(iterations=iterations, factorizations=factorizations, seconds=earlier + seconds, step=mark.step)
+    arrays |= _work(rested=mark.rested)
     arrays |= _fields("state", mark.state, MOVING) | {"state/goals": np.array(mark.goals)}
     for group, rates in (("trend", mark.state.trend), ("bend", mark.state.bend)):
         if rates is not None:
@@ -90,7 +91,8 @@ def resume_motion(march: March, trajectory: Trajectory, kept: Kept) -> None:
         last = _snapshot(_taken(kept, "last", first, SNAPSHOT) | {"met": met})
     goals = kept.arrays.get("state/goals", np.zeros(0))
     entry = Entry(n, len(trajectory.log), now, last, recalled(kept, trajectory.entry.memory))
-    march.take_up(Mark(state, kept.number("work/step"), entry, tuple(np.ravel(goals).tolist())))
+    rested = bool(kept.count("work/rested"))
+    march.take_up(Mark(state, kept.number("work/step"), entry, tuple(np.ravel(goals).tolist()), rested))
     trajectory.rewind(entry, state)
 
 

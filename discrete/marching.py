@@ -48,12 +48,14 @@ class Mark:
         step: Length of the next step [s].
         entry: How far its trajectory had come.
         goals: Times still to be reached on the way from one even step to the next, the last one first [s].
+        rested: Whether the motion has ended there, its nodes being slow enough.
     """
 
     state: Moving
     step: float
     entry: Entry
     goals: tuple[float, ...] = ()
+    rested: bool = False
 
 
 class March:
@@ -66,6 +68,7 @@ class March:
         take: Takes a step from a state to a time, or raises `StepLostError`.
         accept: Called with the state before, the step, the attempts lost before it and whether to store its end; tells
             what is kept then.
+        unit: Of velocities [m/s].
 
     Attributes:
         mark: The last state that counts.
@@ -80,9 +83,10 @@ class March:
         entry: Entry,
         take: Callable[[Moving, float], Taken],
         accept: Callable[[Moving, Taken, int, bool], Entry],
+        unit: float,
     ) -> None:
         assert isinstance(scene.motion, Dynamic)
-        self._motion, self._take, self._accept = scene.motion, take, accept
+        self._motion, self._take, self._accept, self._unit = scene.motion, take, accept, unit
         self._kinks, self._stored = landings(scene)
         self.take_up(Mark(state, self._motion.dt or FIRST * self._motion.t_end, entry))
 
@@ -109,20 +113,27 @@ class March:
                 self.state = self.state.without_trend()
             before = target
 
+    def _rests(self, before: Moving, after: Moving) -> bool:
+        """Whether the fastest node has become slow enough for the motion to end."""
+        if self._motion.rest is None:
+            return False
+        was, now = (self._unit * float(np.linalg.norm(state.v, axis=1).max()) for state in (before, after))
+        return was >= self._motion.rest > now
+
     def _reach(self, start: float, target: float, dt: float) -> None:
         """Equal steps from one time to another, those that are still ahead."""
         n = max(1, ceil((target - start) / dt * (1.0 - NEAR)))
         h = (target - start) / n
         for k in range(1, n + 1):
             t = target if k == n else start + k * (target - start) / n
-            if t > self.state.t + NEAR * h:
+            if t > self.state.t + NEAR * h and not self.mark.rested:
                 self._advance(t)
 
     def _advance(self, t: float) -> None:
         """One step, or as many shorter ones as it takes."""
         goals, cuts = self._goals, 0
         goals[:] = [t, *(goal for goal in goals if goal < t)]
-        while goals:
+        while goals and not self.mark.rested:
             now, self.step = self.state, goals[-1] - self.state.t
             try:
                 taken = self._take(now, goals[-1])
@@ -139,7 +150,7 @@ class March:
     def _reach_freely(self, target: float, tol: float) -> None:
         """Steps as long as the tolerance lets them be, up to a time."""
         cuts, reason = 0, ""
-        while self.state.t < target:
+        while self.state.t < target and not self.mark.rested:
             now, left = self.state, target - self.state.t
             # The last two steps share what is left, so that none is much shorter than the one before.
             trial = left if self.step >= left * (1.0 - NEAR) else min(self.step, max(0.5 * left, 0.5 * self.step))
@@ -164,8 +175,9 @@ class March:
     def _go_on(self, taken: Taken, cuts: int) -> None:
         """Accept a step."""
         before, self.state = self.state, taken.state
-        entry = self._accept(before, taken, cuts, self._motion.output is None or taken.state.t in self._stored)
-        self.mark = Mark(self.state, self.step, entry, tuple(self._goals))
+        rested = self._rests(before, taken.state)
+        entry = self._accept(before, taken, cuts, rested or self._motion.output is None or self.state.t in self._stored)
+        self.mark = Mark(self.state, self.step, entry, tuple(self._goals), rested)
         self._after()
 
 

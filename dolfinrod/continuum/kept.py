@@ -38,7 +38,7 @@ def motion_of(march: March, seconds: float) -> Arrays:
     """
     mark, trajectory = march.mark, march.trajectory
     factorizations = trajectory.factorizations + march.newton.factorizations
-    arrays = _work(iterations=trajectory.iterations, factorizations=factorizations, seconds=seconds)
+    arrays = _work(iterations=trajectory.iterations, factorizations=factorizations, seconds=seconds, rested=mark.rested)
     arrays |= {f"state/{name}": values for name, values in moving_state(march).items()}
     arrays |= {f"now/{name}": np.array(value) for name, value in mark.energy.items()}
     arrays |= {f"ledger/{name}": np.array([row[name] for row in march.ledger.rows]) for name in mark.energy}
@@ -67,7 +67,9 @@ def resume_motion(march: March, kept: Kept) -> None:
     trajectory.factorizations, trajectory.seconds = kept.count("work/factorizations"), kept.number("work/seconds")
     energy = {name: kept.number(f"now/{name}") for name in march.mark.energy}
     count = n, len(trajectory.log), trajectory.iterations
-    take_up(march, state, Mark(kept.t, march.mark.x, march.mark.motion, float(state["length"]), energy, *count))
+    rested = bool(kept.count("work/rested"))
+    mark = Mark(kept.t, march.mark.x, march.mark.motion, float(state["length"]), energy, *count, rested=rested)
+    take_up(march, state, mark)
 
 
 def path_of(path: Path) -> Arrays:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from mpi4py import MPI
+
 import numpy as np
 
 from dolfinrod.continuum.couples import Couples
@@ -121,7 +123,7 @@ class March:
         self._begin()
         for target in targets(self.problem.scene, self._times):
             due = stored is not None and bool(np.abs(stored - target).min() <= SAME * target)
-            while self.mark.t < target * (1.0 - SAME):
+            while self.mark.t < target * (1.0 - SAME) and not self.mark.rested:
                 t, outcome, cuts = self._step(self.mark.t, target)
                 self._accept(t, outcome, cuts, store=stored is None or (due and t >= target * (1.0 - SAME)))
                 if keep is not None:
@@ -176,9 +178,19 @@ class March:
         self.ledger.step()
         energy = self.ledger.strain() * self.problem.placement.moment
         self.trajectory.log.append(StepLog(t, outcome.iterations, cuts, outcome.residual, energy))
-        if store:
+        rested = self._rests()
+        if store or rested:
             self._store(t)
-        self._set_mark(t)
+        self._set_mark(t, rested=rested)
+
+    def _rests(self) -> bool:
+        """Whether the fastest node has become slow enough for the motion to end."""
+        problem, comm = self.problem, self.problem.discretization.comm
+        if self._times.rest is None:
+            return False
+        slow = self._times.rest * problem.lumped.second / problem.placement.length
+        was, now = (comm.allreduce(motion.speed, op=MPI.MAX) for motion in (self.mark.motion, problem.motion))
+        return bool(was >= slow > now)
 
     def _store(self, t: float) -> None:
         self.trajectory.t.append(t)
@@ -192,14 +204,14 @@ class March:
             state |= self.readout.gather(couples=self._couples.rates())
         return state
 
-    def _set_mark(self, t: float) -> None:
+    def _set_mark(self, t: float, *, rested: bool = False) -> None:
         problem, kept = self.problem, self.trajectory
         count = len(kept.t), len(kept.log), kept.iterations
         excess = problem.discretization.excess
         strained = None if excess is None else excess.step()
         touched = None if problem.contacts is None else problem.contacts.memory()
         now = problem.x.copy(), problem.motion, self._pace.length, self.ledger.now()
-        self.mark = Mark(t, *now, *count, strained, touched)
+        self.mark = Mark(t, *now, *count, strained, touched, rested)
 
     def _rewind(self) -> None:
         """Forget what came after the mark."""

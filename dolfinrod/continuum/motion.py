@@ -31,6 +31,11 @@ class Motion:
     a: Array | None = None
     h: float = np.inf
 
+    @property
+    def speed(self) -> float:
+        """Of the fastest node of this rank, in L per unit of time."""
+        return float(np.linalg.norm(self.v, axis=1).max(initial=0.0))
+
     def error(self, before: Motion, order: int) -> float:
         """Error of the step that led here, in L: ½ h² a of a scheme of order 1, h³ a′/12 of the midpoint rule.
 

@@ -57,6 +57,7 @@ class Mark:
         iterations: Spent on them.
         strained: The step behind, where other strains than those of the state have resultants.
         touched: What is remembered of contacts, where there are any.
+        rested: Whether the motion has ended there, its nodes being slow enough.
     """
 
     t: float
@@ -69,3 +70,4 @@ class Mark:
     iterations: int = 0
     strained: tuple[Array, Array, Array] | None = None
     touched: Any = None
+    rested: bool = False

@@ -89,6 +89,8 @@ class Scenario:
         t_end: Time that is followed, 1e-6 to 10 s; 6 ms [I], fibres gather in less than one.
         dt: Time step, 1e-9 to 1e-3 s; 1e-6 [P, unit I].
         output: Time between stored states, from dt on; 0.1 ms [I].
+        rest: Speed below which fibres have gathered, which ends the time, 1e-6 to 100 m/s; 0.3 [I]; None: they are
+            followed until t_end, as they are where ends move.
         elements: Of a fibre in the discrete model, 2 to 10 000; 80 of 0.5 mm [P, I: the paper has 200 of 0.5 mm in
             40 mm]. The continuum model takes a quarter as many of degree 3.
 
@@ -114,6 +116,7 @@ class Scenario:
     t_end: float = 6e-3
     dt: float = 1e-6
     output: float = 1e-4
+    rest: float | None = 0.3
     elements: int = 80
 
     def __post_init__(self) -> None:
@@ -132,6 +135,7 @@ class Scenario:
             t_end=limited(self.t_end, "Scenario.t_end", "s", 1e-6, 10.0),
             dt=dt,
             output=limited(self.output, "Scenario.output", "s", dt, 10.0),
+            rest=None if self.rest is None else limited(self.rest, "Scenario.rest", "m/s", 1e-6, 100.0),
             elements=whole(self.elements, "Scenario.elements", 2, 10_000),
         )
         self.ends.check(self.fibres)
@@ -162,7 +166,9 @@ class Scenario:
         if self.mirrored:
             starts[:, 1] *= -1.0
         rods, core, advance = self.bundle.rods(starts, self.roller), self.core, self.ends.speed * self.t_end
-        supports = self.ends.supports(self.fibres, self.bundle, self.t_end)
+        supports, rest = self.ends.supports(self.fibres, self.bundle, self.t_end), self.rest
+        if self.ends.speed:
+            rest = None
         if isinstance(core, RollingCore):
             rods += (core.rod(self.section, self.kind, self.bundle, self.law.g_0, mirrored=self.mirrored),)
             supports += core.supports(self.fibres, self.bundle, advance)
@@ -172,7 +178,7 @@ class Scenario:
             loads=self.ends.loads(self.fibres, self.bundle.length / self.roller if self.roller else 0.0),
             contacts=self._contacts(),
             air=None if self.air is None else Air(flowing(self, self.air)),
-            motion=Dynamic(t_end=self.t_end, dt=self.dt, output=min(self.output, self.t_end)),
+            motion=Dynamic(self.t_end, self.dt, output=min(self.output, self.t_end), rest=rest),
             velocities=self.ends.velocities(),
         )
 

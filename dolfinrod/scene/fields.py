@@ -13,7 +13,7 @@ from dolfinrod.scene.motion import ImplicitEuler, Midpoint
 from dolfinrod.scene.tables import meant
 from dolfinrod.units import UnitError, has_unit, si
 
-__all__ = ["At", "Field", "Flow", "Growth", "Modulus", "Plain", "Quantity", "Scheme", "Specific"]
+__all__ = ["SPEED", "At", "Field", "Flow", "Growth", "Modulus", "Plain", "Quantity", "Scheme", "Specific"]
 
 SCHEMES: dict[str, type[ImplicitEuler | Midpoint]] = {"implicit_euler": ImplicitEuler, "midpoint": Midpoint}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dolfinrod.scene.air import Air
 from dolfinrod.scene.contact import Contact
-from dolfinrod.scene.fields import At, Field, Flow, Growth, Modulus, Plain, Quantity, Scheme
+from dolfinrod.scene.fields import SPEED, At, Field, Flow, Growth, Modulus, Plain, Quantity, Scheme
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
 from dolfinrod.scene.loads import FollowerForce, FollowerMoment, Gravity, LineForce, PointForce, PointMoment
 from dolfinrod.scene.motion import Dynamic, Static
@@ -102,7 +102,10 @@ LOADS = Choice(
 MOTIONS = Choice(
     {
         "static": Kind(Static, {"steps": Plain(), "t_end": Plain()}),
-        "dynamic": Kind(Dynamic, {"t_end": SECOND, "dt": SECOND, "scheme": Scheme(), "tol": Plain(), "output": SECOND}),
+        "dynamic": Kind(
+            Dynamic,
+            {"t_end": SECOND, "dt": SECOND, "scheme": Scheme(), "tol": Plain(), "output": SECOND, "rest": SPEED},
+        ),
     }
 )
 AIR = Kind(Air, {"field": Flow(), "density": Quantity("kg/m**3"), "viscosity": Quantity("Pa*s")})

@@ -80,10 +80,12 @@ class Dynamic:
         scheme: How time is stepped.
         tol: Error allowed in each step of a free choice, relative to the length of the rods; None: 1e-6.
         output: Time between stored states, or their times, ascending [s]; None: every step.
+        rest: Speed of nodes [m/s]: the motion ends, and its last state is stored, with the step in which the fastest
+            falls below it; None: it goes on until `t_end`.
 
     Raises:
-        SceneError: No positive time, both `dt` and `tol`, more than a million steps or stored states, or what is no
-            scheme.
+        SceneError: No positive time or speed, both `dt` and `tol`, more than a million steps or stored states, or
+            what is no scheme.
     """
 
     t_end: float
@@ -91,6 +93,7 @@ class Dynamic:
     scheme: Scheme = field(default_factory=ImplicitEuler)
     tol: float | None = None
     output: float | Sequence[float] | None = None
+    rest: float | None = None
 
     def __post_init__(self) -> None:
         t_end = _duration(self.t_end, "Dynamic.t_end", "s")
@@ -106,7 +109,8 @@ class Dynamic:
             raise SceneError(
                 f"must be ImplicitEuler() or Midpoint(), got {quoted(self.scheme)}", field="Dynamic.scheme"
             )
-        assign(self, t_end=t_end, dt=dt, tol=tol, output=_output(self.output, t_end))
+        rest = None if self.rest is None else positive(self.rest, "Dynamic.rest", "m/s")
+        assign(self, t_end=t_end, dt=dt, tol=tol, output=_output(self.output, t_end), rest=rest)
 
 
 Motion = Static | Dynamic

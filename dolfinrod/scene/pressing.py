@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # A renewal of multipliers that leaves more than this of the penetration is followed by a firmer law, and how firm.
-SLOW, FIRMER, FIRMEST = 0.25, 10.0, 1e6
+SLOW, FIRMER, FIRMEST = 0.1, 10.0, 1e6
 
 
 class Pressing:

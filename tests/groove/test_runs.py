@@ -20,7 +20,7 @@ TIMES = {"t_end": 1e-4, "dt": 1e-5, "output": 1e-5}
 
 def brief(kind: str = "lateral", *, steps: int = 5, fibres: int = 2, elements: int = 8) -> Scenario:
     """Fibres that do not touch one another for some steps of 10 µs."""
-    times = {"t_end": steps * 1e-5, "dt": 1e-5, "output": 1e-5}
+    times = {"t_end": steps * 1e-5, "dt": 1e-5, "output": 1e-5, "rest": None}
     return Scenario(kind, fibres=fibres, air=GUST, fibres_touch=False, elements=elements, **times)
 
 

@@ -195,3 +195,11 @@ def test_a_scenario_is_told_from_any_other_by_its_key():
     assert key(Scenario(), "discrete", None) == key(base, "discrete", None)
     assert key(base, "continuum", None) != key(base, "discrete", 40)
     assert json.loads(json.dumps(described(base)))["bundle"]["section"]["radius"] == 1e-5
+
+
+def test_gathering_ends_at_rest_unless_ends_move():
+    assert Scenario().scene().motion.rest == 0.3
+    assert Scenario(rest=None).scene().motion.rest is None
+    assert Scenario(ends=Ends(speed=0.17)).scene().motion.rest is None
+    with pytest.raises(SceneError, match=r"Scenario\.rest must lie between 1e-06 and 100 m/s"):
+        Scenario(rest=0.0)
