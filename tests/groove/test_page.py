@@ -131,6 +131,17 @@ def test_the_verdict_follows_from_the_runs(tmp_path, apart, words):
     assert words in told[1]
 
 
+def test_how_long_is_told_of_runs_that_come_to_rest_sooner_or_later(tmp_path):
+    twisted(tmp_path, LATERAL, [0, 1])
+    show = shown(tmp_path)
+    one, other = show.films["lateral"]
+    whole = 1e3 * one.times[-1]
+    assert f" {whole:.3g} ms of gathering" in sentences(show.base, show.films)[0]
+    told = sentences(show.base, {"lateral": (one, replace(other, times=0.5 * other.times))})
+    assert f" {0.5 * whole:.3g} to {whole:.3g} ms of gathering" in told[0]
+    assert f"are {0.5 * whole:.3g} to {whole:.3g} ms of " in told[4]
+
+
 def test_runs_without_scatter_have_a_difference():
     assert difference([2.0, 2.0], [1.0, 1.0]) == difference([1.0, 1.0, 1.0], [0.0, 0.0])
     assert difference([2.0, 2.0], [1.0, 1.0]).low == 1.0

@@ -57,8 +57,15 @@ def _asked(base: Setting, films: Mapping[str, Sequence[Film]]) -> str:
     return (
         f"Yarns spun with the lateral groove had {interval(yarns)} turns/m more twist than those of the intermediate "
         f"groove (Table 1, 95 % interval); here {told} of {counted(film.paths.shape[1], 'fibre')} each, "
-        f"{1e3 * film.times[-1]:.3g} ms of gathering in the {base.model} model, are set beside that."
+        f"{_lasting(films)} of gathering in the {base.model} model, are set beside that."
     )
+
+
+def _lasting(films: Mapping[str, Sequence[Film]]) -> str:
+    """How long fibres were followed, which may come to rest sooner or later."""
+    ends = [film.times[-1] for group in films.values() for film in group]
+    told = dict.fromkeys(f"{1e3 * end:.3g}" for end in (min(ends), max(ends)))
+    return f"{' to '.join(told)} ms"
 
 
 def _net(base: Setting, apart: Interval | None) -> str:
@@ -113,7 +120,7 @@ def _not_shown(base: Setting, films: Mapping[str, Sequence[Film]]) -> str:
     middle = {"FixedCore": " around a core at rest", "RollingCore": " with a rigid core that rolls"}.get(str(core), "")
     return (
         f"Not shown: a yarn. {plain(measured().comparison.difference.value)} turns/m over {1e3 * length:.3g} mm are "
-        f"{plain(turns)} turns of the whole strand, while these are {1e3 * film.times[-1]:.3g} ms of {of}{middle}, "
+        f"{plain(turns)} turns of the whole strand, while these are {_lasting(films)} of {of}{middle}, "
         "without the twist of the spindle, in a groove, air and ends that the paper does not describe and that are "
         "assumed; nothing was fitted to Table 1."
     )
