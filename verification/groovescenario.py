@@ -44,8 +44,8 @@ class Setting:
     quick: bool = False
 
     def small(self) -> Setting:
-        """The same for a report."""
-        return replace(self, scenario=small(self.scenario))
+        """The same for a report, which is to take less than half an hour."""
+        return replace(self, scenario=small(self.scenario), seeds=min(self.seeds, FEW))
 
     def hurried(self) -> Setting:
         """The same for a quick run: a blink of two fibres and few elements, which shows that it runs, no more."""
