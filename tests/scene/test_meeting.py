@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 import dolfinrod as dr
 from dolfinrod.scene.meeting import Coupling, Meeting, Strands
 from dolfinrod.scene.meeting.facing import look
+from dolfinrod.scene.meeting.neighbours import near
 from dolfinrod.scene.rodcontact import RodContact
 from tests.scenes import Pose, largest, poses
 
@@ -222,6 +223,18 @@ def test_force_does_not_jump_where_an_end_comes_to_touch_beside_another_contact(
         forces.append(force(met(x, replace(lines, spans=1)), x))
     assert largest(forces[0]) > 0.01 * STIFF * HALO * LENGTH
     assert largest(forces[1] - forces[0]) <= 1e-9 * largest(forces[0])
+
+
+def test_a_node_that_goes_astray_takes_no_memory():
+    """In the midst of an iteration, before it is given up: spans of 1e9 others."""
+    x = np.concatenate([straight(0.0, 0.0), straight(0.7, 2 * RADIUS)])
+    course = met(x, strands("smooth"))._spans.course
+    every, far = np.ones(2 * ELEMENTS, dtype=bool), x.copy()
+    far[-1] = 1e9
+    there = {tuple(pair) for pair in near(course(x), every, HALO) if pair.max() < 2 * ELEMENTS - 2}
+    found = {tuple(pair) for pair in near(course(far), every, HALO) if pair.max() < 2 * ELEMENTS - 2}
+    assert there
+    assert there <= found
 
 
 def side_by_side(seed: int) -> Array:

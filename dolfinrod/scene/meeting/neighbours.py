@@ -36,8 +36,9 @@ def near(course: Course, touching: Flags, reach: float) -> Integers:
     if len(found) < 2:
         return np.zeros((0, 2), dtype=np.intp)
     long = np.linalg.norm(chords[found], axis=1)
-    # One long span would make the balls of all others as large as itself.
-    counts = np.ceil(long / np.median(long)).astype(np.intp)
+    # One long span would make the balls of all others as large as itself; one that goes astray is cut to no more pieces
+    # than there are spans.
+    counts = np.maximum(1, np.ceil(long / max(np.median(long), long.mean()))).astype(np.intp)
     ball = np.repeat(np.arange(len(found)), counts)
     part = (np.arange(len(ball)) - np.repeat(np.cumsum(counts) - counts, counts) + 0.5) / counts[ball]
     of = found[ball]
