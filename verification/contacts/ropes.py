@@ -132,12 +132,14 @@ class Loop:
         degrees: Of the drum that it touches.
         part: T₂ as a part of what would make it slide.
         EA: Axial stiffness [T₁].
+        anchors: Their stiffness over that of the drum.
     """
 
     mu: float
     degrees: float
     part: float
     EA: float = 1e4
+    anchors: float = 1.0
 
     @property
     def string(self) -> Drum:
@@ -159,7 +161,7 @@ class Loop:
         return Scene(
             rods=[rod],
             loads=[pull, held],
-            contacts=[Contact(wrap.drum, LAW, Coulomb(self.mu))],
+            contacts=[Contact(wrap.drum, LAW, Coulomb(self.mu, eps_T=self.anchors * STIFFNESS))],
             motion=Static(steps=4 * steps, t_end=4.0),
         )
 
