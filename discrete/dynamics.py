@@ -131,7 +131,7 @@ def _followed(
     result = trajectory.result(found, state, seconds, converged=failure is None)
     if failure is None:
         return result
-    words = _advice(scene, failure, file)
+    words = _advice(scene, cut, failure, file)
     raise NotConverged(result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=words) from failure
 
 
@@ -202,10 +202,10 @@ def _check(scene: Scene, chosen: Mapping[str, str]) -> None:
                 raise SceneError(damped, field=f"rods[{k}].section.damping")
 
 
-def _advice(scene: Scene, failure: StepFailed, file: Checkpoint | None) -> str:
+def _advice(scene: Scene, cut: Mesh, failure: StepFailed, file: Checkpoint | None) -> str:
     """What to try against a failure."""
     if failure.reason == INTERRUPTED:
-        return advice(scene, failure, (), file)
+        return advice(scene, cut, failure, (), file)
     motion = scene.motion
     assert isinstance(motion, Dynamic)
     if motion.dt is not None:

@@ -127,5 +127,5 @@ class Session:
             t=failure.t,
             step=failure.step,
             reason=failure.reason,
-            advice=advice(self.scene, failure, self._path.log),
+            advice=advice(self.scene, self.equilibrium.mesh, failure, self._path.log),
         )

@@ -204,7 +204,7 @@ def _followed(scene: Scene, run: _Run, begun: float, progress: Progress | None, 
     seconds = (started - begun, time.perf_counter() - started)
     result = recorded(scene, run.mesh, path, run.notes(), seconds, run.memory(), converged=failure is None)
     if failure is not None:
-        words = advice(scene, failure, path.log, file)
+        words = advice(scene, run.mesh, failure, path.log, file)
         raise NotConverged(
             result=result, t=failure.t, step=failure.step, reason=failure.reason, advice=words
         ) from failure

@@ -84,7 +84,7 @@ def limit(model: str, elements: int, degree: int, repeats: int) -> Limit:
         repeats: Solves, of which the quickest counts; two at least.
     """
     mesh = str(elements) if model == "discrete" else f"{elements} × P{degree}"
-    found = told("limitrun", model, elements, degree, repeats)
+    found = told("limitrun", model, elements, degree, repeats, 0)
     if "failure" in found:
         return Limit(model, mesh, 0, 0, *5 * (np.nan,), found["failure"])
     parts = ("unknowns", "half", "assembly", "factors", "petsc", "python", "banded")

@@ -15,6 +15,8 @@ __all__ = ["Findings", "advice"]
 
 # Turn between neighbouring sections from which an element is no longer near the rod [rad].
 COARSE = 1.0
+# Round-off of stiffnesses over that of a rod from which on Newton's method may be lost.
+ROUNDED = 0.3
 # What helps where contact comes and goes, or rods slip.
 SOFTER = "contact that is softer (a smaller eps_N) or begins smoothly (SmoothPenalty)"
 FIRMER = "a stiffer RodContact.law where rods are pressed through one another, a softer one where they are not"
@@ -32,6 +34,7 @@ class Findings:
         turned: Largest turn between neighbouring sections at the last equilibrium [rad].
         critical: Pseudo-time just ahead of it at which the loads are critical, if there is one.
         lost: Pseudo-time from which on the equilibria are unstable, if they are.
+        rounding: What rounds off the stiffnesses of the elements over what a rod resists its loads with.
     """
 
     t: float
@@ -40,6 +43,7 @@ class Findings:
     turned: float = 0.0
     critical: float | None = None
     lost: float | None = None
+    rounding: float = 0.0
 
 
 def advice(scene: Scene, found: Findings) -> str:
@@ -58,13 +62,8 @@ def advice(scene: Scene, found: Findings) -> str:
     if free and (found.t == 0.0 or found.pushed):
         also = f", to begin where rods touch what holds them, or {MASS}" if scene.contacts else ""
         return f"Likely a mechanism. Nothing holds the rods completely: {'; '.join(free)}. Try more supports{also}"
-    if found.aliased:
-        return "Likely too few elements for so many turns: try more elements"
-    if found.turned > COARSE:
-        return (
-            f"Likely too few elements for such loads: at t = {found.t:.6g} neighbouring sections have turned by "
-            f"{found.turned:.2g} rad against each other. Try more elements"
-        )
+    if mesh := _meshed(found):
+        return mesh
     if found.critical is not None:
         return (
             f"Likely a critical point was passed: the loads are critical at t = {found.critical:.6g}, and beyond it "
@@ -82,6 +81,24 @@ def advice(scene: Scene, found: Findings) -> str:
         f"The iteration did not settle. Try Static(steps={2 * steps if steps else 8}), {touching}more elements, or "
         "look at `.result` (what converged)"
     )
+
+
+def _meshed(found: Findings) -> str:
+    """What is wrong with the number of elements; empty: nothing that is known."""
+    if found.aliased:
+        return "Likely too few elements for so many turns: try more elements"
+    if found.rounding > ROUNDED:
+        return (
+            "Likely too many elements for double precision: what it rounds off their stiffnesses 12 EI/l³ is "
+            f"{found.rounding:.2g} times the stiffness of the rod. Try fewer elements, or the continuum model, which "
+            "has forces as unknowns of their own"
+        )
+    if found.turned > COARSE:
+        return (
+            f"Likely too few elements for such loads: at t = {found.t:.6g} neighbouring sections have turned by "
+            f"{found.turned:.2g} rad against each other. Try more elements"
+        )
+    return ""
 
 
 def _in_time(scene: Scene, dt: float | None) -> str:

@@ -7,9 +7,13 @@ import pytest
 
 import discrete
 import dolfinrod as dr
+from discrete import equilibrium
+from discrete.failure import advice, rounding
+from discrete.mesh import mesh
 from discrete.predictor import Memory
 from discrete.solver import beginning
-from tests.scenes import FLAT, KIRCHHOFF, SKEW, differences, followed, largest, rolled_up
+from discrete.statics import StepFailed
+from tests.scenes import FLAT, KIRCHHOFF, SKEW, differences, followed, largest, rolled_up, tip_loaded
 
 # Case E: the helical form of Ibrahimbegovic 1997 with EA = GA = 1e4.
 HELIX = dr.Section(EA=1e4, GA=1e4, GJ=100.0, EI=100.0)
@@ -117,3 +121,17 @@ def test_loads_that_few_elements_cannot_resolve_are_named():
     with pytest.raises(dr.NotConverged, match="Likely too few elements for such loads") as failure:
         discrete.solve(followed(KIRCHHOFF, 1e3, FLAT), elements=4)
     assert failure.value.result.log[-1].t == failure.value.t > 0.0
+
+
+def test_meshes_too_fine_for_double_precision_are_named(monkeypatch):
+    """A linear answer is off by as many digits as are foretold, one more or less; where none is left, that is said."""
+    monkeypatch.setattr(equilibrium, "MOST_ITERATIONS", 1)
+    P, scene, failure = 1e-3, tip_loaded(KIRCHHOFF, 1e-3, FLAT), StepFailed(t=0.0, step=1.0, reason="")
+    for n in (2_000, 5_000, 10_000):
+        phase, path = beginning(scene, n, None)
+        tip = phase.find(path.state, 1.0).state.x[-1, 1]
+        cut = mesh(scene, n)
+        assert 0.05 < abs(tip / (P / 3.0) - 1.0) / rounding(cut) < 20.0
+        assert "too many" not in advice(scene, cut, failure, ())
+    told = advice(scene, mesh(scene, 40_000), failure, ())
+    assert told.startswith("Likely too many elements for double precision")

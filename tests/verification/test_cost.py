@@ -41,7 +41,7 @@ def test_an_iteration_is_taken_apart_in_a_process_of_its_own(model):
 
 
 def test_a_finer_mesh_costs_more():
-    study = grown("discrete", 1, (4, 400))
+    study = grown("discrete", 1, (10, 400))
     assert not any(row.failure for row in study.rows)
     assert study.rows[1].ms > study.rows[0].ms
     assert study.rows[1].memory > 0.0
