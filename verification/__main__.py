@@ -150,7 +150,7 @@ def reported(options: Namespace) -> int:
 
 
 def _rows(units: Sequence[Unit], ledger: Ledger, progress: Progress, options: Namespace) -> dict[str, tuple[Row, ...]]:
-    """Rows of all units by topic; those not yet done are done, several at once where that is asked for."""
+    """Rows of all units by topic; those not yet done are done, several at once where that is asked for and may be."""
     from verification.atonce import at_once
     from verification.interrupt import Interrupt
     from verification.plan import plan, selected
@@ -162,7 +162,12 @@ def _rows(units: Sequence[Unit], ledger: Ledger, progress: Progress, options: Na
         again = partial(plan, selected(options.names), quick=options.quick)
         at_once(again, ledger, options.jobs, progress)
         interrupt.check()
-        return work_off(units, ledger, interrupt=interrupt)
+
+        def left(_: int, unit: Unit, recalled: bool) -> None:
+            if not recalled:
+                progress(progress.done + 1, unit, recalled)
+
+        return work_off(units, ledger, left, interrupt)
 
 
 def _command(options: Namespace) -> str:

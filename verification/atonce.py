@@ -1,6 +1,6 @@
 """Units of work on several cores: processes that take the next one until none is left.
 
-A unit that none of them finishes is left to the caller, who then sees why.
+A unit that none of them finishes is left to the caller, who then sees why; so is one that must run alone.
 """
 
 from __future__ import annotations
@@ -71,6 +71,8 @@ def _work(plan: Callable[[], Sequence[Unit]], ledger: Ledger, taken: Synchronize
             if k >= len(units):
                 return
             rows = ledger.recall(units[k])
+            if rows is None and units[k].alone:
+                continue
             if rows is None:
                 found, seconds = units[k].done()
                 interrupt.check()

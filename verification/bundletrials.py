@@ -67,11 +67,11 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
         who = MODELS[-1]
         for n in (FEW, MOST):
             work = partial(on_ranks, who, n, STEPS)
-            yield Unit("bundle", f"Bundle of {n} on two ranks", (who.mesh, n, STEPS), work)
+            yield Unit("bundle", f"Bundle of {n} on two ranks", (who.mesh, n, STEPS), work, alone=True)
     if not quick and {BUNDLES, SCALING} & wanted:
         yield _scaling(STEPS)
         words, runs = f"Ensemble of {RUNS} on two ranks", partial(ensembles, RUNS, RUN_STEPS)
-        yield Unit("bundle", words, ("ensembles", RUNS, RUN_STEPS), runs)
+        yield Unit("bundle", words, ("ensembles", RUNS, RUN_STEPS), runs, alone=True)
     if LONG in wanted:
         yield _scaling(LONG_STEPS)
 
@@ -83,4 +83,4 @@ def _growth(who: Bundle, fibres: tuple[int, ...], steps: int) -> Unit:
 
 def _scaling(steps: int) -> Unit:
     words = f"Scaling of a bundle of {MOST}, {steps} steps"
-    return Unit("bundle", words, ("scaling", MOST, steps), partial(scaled, MOST, steps))
+    return Unit("bundle", words, ("scaling", MOST, steps), partial(scaled, MOST, steps), alone=True)

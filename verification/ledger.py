@@ -100,12 +100,14 @@ class Unit:
         words: What is solved, for people.
         parameters: What sets it apart from others of its topic; strings and numbers.
         work: Solves it; returns a row, or rows, for the report.
+        alone: Whether it compares times on all cores, so that nothing else may run beside it.
     """
 
     topic: str
     words: str
     parameters: tuple[str | int | float, ...]
     work: Callable[[], Row | tuple[Row, ...]]
+    alone: bool = False
 
     def done(self) -> tuple[tuple[Row, ...], float]:
         """Do it: rows, and seconds by the clock."""

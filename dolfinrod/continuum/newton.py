@@ -65,6 +65,8 @@ class Newton:
         self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
         self._size = self._next = self._moved = np.inf
         self._stalls = False
+        # Each of the nodes between a support and a rod's end may round its position off.
+        self._round_off = max(NEGLIGIBLE, float(np.finfo(float).eps) * d.comm.allreduce(len(self._r)))
         self._open()
 
     def _open(self) -> None:
@@ -107,7 +109,7 @@ class Newton:
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size, self._next, self._stalls = np.inf, np.inf, False
         self._watch = self._watched(last)
-        self._pivoting.begin(fine)
+        self._pivoting.begin()
         reason = self._run()
         iterations = self.snes.getIterationNumber()
         if reason == SINGULAR:
@@ -218,7 +220,7 @@ class Newton:
 
     def _settled(self) -> bool:
         """Whether no further increment matters."""
-        if self._stalls and self._moved < NEGLIGIBLE:
+        if self._stalls and self._moved < self._round_off:
             return True
         if self._fine > TOLERANCE:
             return self._size < self._fine and not (self._fine < ROUGH and self._touches_anew)

@@ -8,7 +8,6 @@ from mpi4py import MPI
 
 import numpy as np
 
-from dolfinrod.continuum.pressed import ROUGH
 from dolfinrod.scene import Static
 from dolfinrod.scene.pivoting import joined, pivoted
 
@@ -40,24 +39,25 @@ class Pivoting:
         r: Centreline dofs of this rank's own nodes, shape (n, d).
 
     Attributes:
-        gives_way: Whether a step was not the way to any set of points: rods give way on it.
+        gives_way: Whether the last step was not the way to any set of points: rods give way on it.
     """
 
     def __init__(self, problem: Problem, r: NDArray[np.int32]) -> None:
-        self._problem, self._r, self.gives_way, self._rough = problem, r, False, False
+        self._problem, self._r, self.gives_way = problem, r, False
         # Rods that touch others exchange points of these, too, of which the set would know nothing.
         sides = () if problem.walls is None or problem.scene.meetings else problem.walls.sides
         mine = isinstance(problem.scene.motion, Static) and any(side.touch.open for side in sides)
         self._asked = problem.discretization.comm.allreduce(mine, op=MPI.LOR)
 
-    def begin(self, fine: float) -> None:
-        """An iteration begins, whose last increment is to be so small; on softer walls it finds its way by itself."""
-        self.gives_way, self._rough = False, fine >= ROUGH
+    def begin(self) -> None:
+        """An iteration begins."""
+        self.gives_way = False
 
     def complete(self, factors: PETSc.KSP, X: PETSc.Vec, Y: PETSc.Vec) -> None:
         """Let a step Y from X, X − Y being next, press what it should where it leads, by factors of its tangent."""
         walls, x, y = self._problem.walls, X.array_r[self._r], Y.array_r[self._r]
-        if walls is None or not self._asked or self.gives_way or self._rough:
+        self.begin()
+        if walls is None or not self._asked:
             return
         if self._problem.discretization.comm.allreduce(np.abs(y).max(initial=0.0), op=MPI.MAX) > FAR:
             return
