@@ -15,7 +15,7 @@ import numpy as np
 from discrete.endforces import conjugate, deformed, in_element, in_space
 from discrete.endtangents import end_tangents
 from discrete.rows import cross, dot, of_vectors
-from discrete.unknowns import AXIAL
+from discrete.unknowns import AXIAL, N_ELEMENT
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ChordElement"]
 
+# Elements at once.
+BLOCK = 1024
 # Rotations in [k*] component by component, and for each both ends.
 _ROTATIONS = np.array([3, 9, 4, 10, 5, 11])
 
@@ -91,6 +93,24 @@ class ChordElement:
 
     def respond(self, e: Array, E: Array, F_n: Array) -> tuple[Array, Array]:
         """End forces of the element and their derivative, shape (n, 13, 13); otherwise as `measure`."""
+        n = len(F_n)
+        if n <= BLOCK:
+            return self._respond(e, E, F_n)
+        force, tangent = np.empty((n, N_ELEMENT)), np.empty((n, N_ELEMENT, N_ELEMENT))
+        for first in range(0, n, BLOCK):
+            few = slice(first, first + BLOCK)
+            force[few], tangent[few] = self._few(few)._respond(e[few], E[few], F_n[few])
+        return force, tangent
+
+    def _few(self, few: slice) -> ChordElement:
+        """Some of the elements."""
+        other = copy(self)
+        other._k, other._compliance, other._l_0 = self._k[..., few], self._compliance[few], self._l_0[few]
+        other._behind = self._behind[..., few] if isinstance(self._behind, np.ndarray) else self._behind
+        return other
+
+    def _respond(self, e: Array, E: Array, F_n: Array) -> tuple[Array, Array]:
+        """The same of so few elements that what comes in between stays in the processor's memory."""
         e, E = of_vectors(e), _by_rows(E)
         d = deformed(e, E)
         μ = self._moments(d.θ) - self._behind

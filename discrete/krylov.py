@@ -63,13 +63,15 @@ def leading(
         order = np.argsort(-rank(values), kind="stable")
         largest = float(np.abs(values).max(initial=0.0))
         values, Y = values[order][:n].astype(complex), Y[:, order]
-        vectors = Q @ Y[:, :n]
-        error = np.linalg.norm(AQ @ Y[:, :n] - vectors * values, axis=0)[np.abs(values) >= least * largest]
+        vectors = _combined(Q, Y[:, :n])
+        error = np.linalg.norm(_combined(AQ, Y[:, :n]) - vectors * values, axis=0)[np.abs(values) >= least * largest]
         if error.max(initial=0.0) <= accuracy * largest or Q.shape[1] == int(free.sum()):
             break
         kept = Y[:, :width]
         block = Q @ np.concatenate([kept.real, kept.imag], axis=1)
-    return values, vectors.astype(complex), largest
+        # Not kept beside the next ones: they are most of what there is.
+        del Q, AQ
+    return values, vectors, largest
 
 
 def clusters(values: NDArray[np.complex128] | Array) -> NDArray[np.int64]:
@@ -78,17 +80,25 @@ def clusters(values: NDArray[np.complex128] | Array) -> NDArray[np.int64]:
     return np.asarray((gaps <= TOGETHER * np.abs(values)[:, None]).sum(axis=1), dtype=np.int64)
 
 
+def _combined(real: Array, Y: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """Product of a large real matrix and a small complex one, without a complex copy of the first."""
+    product = np.empty((len(real), Y.shape[1]), dtype=complex)
+    product.real, product.imag = real @ Y.real, real @ Y.imag
+    return product
+
+
 def _space(times: Callable[[Array], Array], block: Array) -> tuple[Array, Array]:
     """Orthonormal basis of the Krylov space of a block, and the operator on it."""
-    Q, images = np.zeros((len(block), 0)), np.zeros((len(block), 0))
+    shape, n = (len(block), DEPTH * block.shape[1]), 0
+    Q, images = np.empty(shape, order="F"), np.empty(shape, order="F")
     for _ in range(DEPTH):
         size = np.linalg.norm(block)
         for _ in range(2):
-            block = block - Q @ (Q.T @ block)
-        W, R, _ = qr(block, mode="economic", pivoting=True)
+            block = block - Q[:, :n] @ (Q[:, :n].T @ block)
+        W, R, _ = qr(block, overwrite_a=True, mode="economic", pivoting=True)
         new = W[:, np.abs(np.diag(R)) > INDEPENDENT * size]
         if not new.shape[1]:
             break
-        block = times(new)
-        Q, images = np.concatenate([Q, new], axis=1), np.concatenate([images, block], axis=1)
-    return Q, images
+        block, before, n = times(new), n, n + new.shape[1]
+        Q[:, before:n], images[:, before:n] = new, block
+    return Q[:, :n], images[:, :n]

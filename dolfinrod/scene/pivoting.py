@@ -17,6 +17,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.pushing import BLURRED
+
 __all__ = ["Outlook", "joined", "pivoted"]
 
 Array = NDArray[np.float64]
@@ -27,8 +29,6 @@ Moved = Callable[[int], Array]
 MOST, MOST_BACK = 10, 10
 # Gaps that keep points apart at the start, over the largest one, spread evenly by multiples of the golden ratio.
 SPREAD, GOLDEN = 1e-6, 0.5 * (1.0 + 5.0**0.5)
-# Part of the largest one that is round-off of a number.
-BLURRED = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +80,7 @@ def pivoted(ahead: Outlook, moved: Moved) -> tuple[Flags, Array] | None:
     sign, stiffness = np.where(ahead.pressed, -1.0, 1.0), ahead.slope * ahead.share
     goal, start = (-sign * p / ahead.slope for p in (ahead.pressure, ahead.start))
     found = np.zeros(len(goal))
-    if (goal < -BLURRED * np.abs(goal).max(initial=0.0)).any():
+    if (goal < -BLURRED * max(np.abs(goal).max(initial=0.0), np.abs(start).max(initial=0.0))).any():
         # Points that just touch or leave at the start would have no order among them, and be exchanged without end.
         apart = SPREAD * np.abs(goal).max() * (1.0 + np.arange(len(goal)) * GOLDEN % 1.0)
         way = _Way(goal, np.maximum(start, 0.0) + apart - goal, lambda i: sign * stiffness[i] * moved(i))

@@ -7,21 +7,23 @@ from numpy.typing import NDArray
 
 from dolfinrod.scene.compiled import compiled
 
-__all__ = ["GRAZING", "followed", "gathered", "touching"]
+__all__ = ["BLURRED", "GRAZING", "followed", "gathered", "touching"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Distance from touching, in radii, that is round-off.
 GRAZING = 1e-9
+# Part of what a number was before a step that is round-off of what it is after it.
+BLURRED = 1e-13
 
 
 @compiled
 def followed(p: Array, torn: Flags, X: Array, was: Flags, X_0: Array, p_0: Array, p_X: Array) -> tuple[Flags, Array]:
     """What stays pressed after a linear step from X_0, and under which pressure its normals turn.
 
-    That is p₀ + ∂p/∂X (X − X₀) for what was pressed, which stays as long as that is not below zero or it is torn; the
-    rest is pressed where its gap makes p positive.
+    That is p₀ + ∂p/∂X (X − X₀) for what was pressed, which stays as long as that is not below zero, but for round-off
+    of p₀, or it is torn; the rest is pressed where its gap makes p positive.
     """
     pressed, expected = p > 0.0, np.zeros(len(p))
     for i in range(len(p)):
@@ -29,7 +31,7 @@ def followed(p: Array, torn: Flags, X: Array, was: Flags, X_0: Array, p_0: Array
             hoped = p_0[i]
             for j in range(3):
                 hoped += p_X[i, j] * (X[i, j] - X_0[i, j])
-            pressed[i], expected[i] = hoped >= 0.0 or torn[i], max(hoped, 0.0)
+            pressed[i], expected[i] = hoped >= -BLURRED * abs(p_0[i]) or torn[i], max(hoped, 0.0)
     return pressed, expected
 
 

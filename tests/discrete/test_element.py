@@ -7,7 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from discrete import stiffness
+from discrete import corotation, stiffness
+from discrete.corotation import ChordElement
+from discrete.mesh import mesh
+from discrete.rotation import exp
+from tests.scenes import GENERAL, SKEW, tip_loaded
 
 # Ramie fibre, process.md 1.1: EA, EI, G I_p in SI units.
 EA, EI, GI_P = 10.7627, 2.690683e-10, 2.569006e-11
@@ -99,3 +103,17 @@ def test_tip_of_one_element_deflects_like_a_beam():
     assert np.linalg.solve(k, [0, P, 0, 0, 0, 0]) == pytest.approx(
         [0, P * l**3 / 15, 0, 0, 0, P * l**2 / 10], abs=1e-14
     )
+
+
+def test_elements_answer_in_blocks_as_they_do_at_once(monkeypatch):
+    """Each is a law of its own, with what viscosity leaves behind, too."""
+    turn = np.random.default_rng(3)
+    elements = mesh(tip_loaded(GENERAL, 1.0, SKEW), 10).elements
+    law = ChordElement(elements, paper_strain=False)
+    law = law.changed(1.0 + turn.random(10), elements.l_0, 0.1 * turn.standard_normal((10, 2, 3)))
+    E = exp(0.1 * turn.standard_normal((10, 2, 3)))
+    e, F_n = elements.l_0[:, None] * E[:, 0, :, 0], turn.standard_normal(10)
+    whole = law.respond(e, E, F_n)
+    monkeypatch.setattr(corotation, "BLOCK", 4)
+    for found, right in zip(law.respond(e, E, F_n), whole, strict=True):
+        assert np.abs(found - right).max() <= 1e-14 * np.abs(right).max()

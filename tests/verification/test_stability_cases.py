@@ -20,7 +20,8 @@ from verification.stability import LIMIT, MODELS, bracket, eigenstudy, pairs
 pytestmark = pytest.mark.serial
 
 BY_NAME = {case.name: case for case in CASES}
-QUICK = ("column-PP", "column-CP", "vibration-cantilever-1", "vibration-torsion-1")
+# On the crest the wall first pushes the rod until it just touches, which must not let it go.
+QUICK = ("column-PP", "column-CP", "vibration-cantilever-1", "vibration-torsion-1", "crest")
 
 
 def test_names_are_unique():

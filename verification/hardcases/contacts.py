@@ -192,7 +192,10 @@ def over_lip() -> HardContact:
 
 
 def across_edge() -> HardContact:
-    """Its free end hangs over a lip, pulled down until it stands up, 2.7 rad, by one half of the load and the other."""
+    """Its free end hangs over a lip, pulled down until it stands up, 2.7 rad, by one half of the load and the other.
+
+    Nodes alone feel the edge, and rest on either side of it: ends that load steps lead to are two chords apart.
+    """
 
     def scene() -> Scene:
         start = (0.0, RADIUS + TIGHT.g_0, -4.5e-3)
@@ -203,7 +206,7 @@ def across_edge() -> HardContact:
         return Scene([rod], [Clamp("start")], [pull], walls, motion=Static(steps=2))
 
     title = "Pulled down across a steep edge by 1 mN"
-    return HardContact("edge", "polyline edges", title, scene, Beside(), elements=32, discrete=80, limit=1e-2)
+    return HardContact("edge", "polyline edges", title, scene, Beside(), elements=32, discrete=320, limit=1e-2)
 
 
 CASES = (
