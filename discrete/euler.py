@@ -84,7 +84,8 @@ class BackwardEuler:
         self.contacts = contacts
         alone = drag is None and (contacts is None or contacts.walls is None)
         self._workshop = Workshop(mesh, supports, inertia.m if alone else None)
-        self._still = np.zeros_like(mesh.x)
+        self._still, self._lost = np.zeros_like(mesh.x), False
+        self._meet = contacts is not None and contacts.others is not None
 
     @property
     def factorizations(self) -> int:
@@ -118,8 +119,11 @@ class BackwardEuler:
             except PiercedError:
                 self._workshop.factors = None
                 raise
-            except (SingularTangentError, StepLostError):
-                self._workshop.factors = None
+            except (SingularTangentError, StepLostError) as error:
+                # Where rods touch rods, half a step leads on sooner than another way through the whole of it.
+                self._workshop.factors, self._lost = None, self._meet and not self._lost
+                if self._lost:
+                    raise StepLostError(str(error)) from error
             try:
                 step = self._begun(now, t, staying=True)
                 spent = approach(step, self.mesh, law, lambda *at: self._increments(level, *at))
@@ -130,7 +134,7 @@ class BackwardEuler:
                 raise StepLostError(str(error)) from error
 
     def _begun(self, now: Moving, t: float, *, staying: bool) -> Step:
-        """First guess of a step."""
+        """First guess."""
         self._workshop.check(t - now.t)
         if self._walls is not None:
             self._walls.begin(t)
@@ -208,8 +212,7 @@ class BackwardEuler:
         return self._workshop.found(make, missing, R, touched, FINE).d
 
     def _factors_at(self, step: Step, law: Element, level: LoadLevel, at: Balance) -> Factors:
-        """New factors where the iteration has come to."""
-        # Many small matrices are made of these: one after the other in memory that is quicker.
+        """New factors where the iteration has come to, of small matrices that lie one after the other."""
         _, stiffness = law.respond(np.ascontiguousarray(at.e), np.ascontiguousarray(at.E), step.F_n)
         return self._factors(step, stiffness, level, (at.x, at.R, at.moment, at.missing))
 
@@ -218,8 +221,7 @@ class BackwardEuler:
     ) -> Factors:
         """New factors of the tangent at a configuration, moment of inertia and what is out of balance there."""
         x, R, moment, missing = at
-        frames = R.transpose(2, 0, 1)
-        Θ, _ = tangents(step.θ.T, self._still)
+        frames, (Θ, _) = R.transpose(2, 0, 1), tangents(step.θ.T, self._still)
         blocks, drag = self.inertia.blocks(frames, step.ω.T, step.Ω.T, moment, Θ, step.dt), None
         if self._drag is not None:
             drag = self._drag.blocks(x.T, frames, step.v.T, step.t, step.dt)
@@ -229,7 +231,7 @@ class BackwardEuler:
 
     def _taken(self, step: Step, found: Increments, at: Balance, level: LoadLevel, iterations: int) -> Taken:
         """The step, what acted before its last increment carried on along it."""
-        change, yielded = found.stretched(self._ends), found.pressed()
+        change, yielded, self._lost = found.stretched(self._ends), found.pressed(), False
         added = self._ends.scatter(change)
         energy = float(at.energy.sum()) + float(np.vdot(at.internal + 0.5 * added, found.d))
         state = step.end()

@@ -21,9 +21,10 @@ from dolfinrod.continuum.direct import LIBRARY_ERROR
 from dolfinrod.continuum.leap import part_taken
 from dolfinrod.continuum.outcome import LOST, MOST_ITERATIONS, SINGULAR, Outcome, words
 from dolfinrod.continuum.pivots import Pivoting
-from dolfinrod.continuum.pressed import DIRECT, ROUGH, pressed, renewed
+from dolfinrod.continuum.pressed import DIRECT, ROUGH, Attempts
 from dolfinrod.continuum.sizes import Sizes
 from dolfinrod.continuum.watch import Unwatched, Watch
+from dolfinrod.scene import Dynamic
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -62,6 +63,7 @@ class Newton:
         self._r, self._q, self._foresights = d.owned_nodes("r"), d.owned_nodes("q"), 0
         self._sizes, self._m = Sizes(d, ("r", "N", "m")), d.owned_nodes("m").ravel()
         self._pivoting = Pivoting(problem, self._r)
+        self._attempts = Attempts(fly=problem.pairs is not None and isinstance(problem.scene.motion, Dynamic))
         self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
         self._size = self._next = self._moved = np.inf
         self._stalls = False
@@ -98,14 +100,14 @@ class Newton:
         Args:
             last: The equilibrium on this rank that the state was extrapolated from; None: it is one itself.
         """
-        contacts, x, find = self.problem.contacts, self.problem.x, partial(self._found, last)
+        contacts, find = self.problem.contacts, partial(self._found, last)
         if contacts is None:
             return find(MOST_ITERATIONS, TOLERANCE)
-        return renewed(contacts, lambda fine: pressed(x, contacts, find, MOST_ITERATIONS, fine), TOLERANCE)
+        return self._attempts.made(self.problem.x, contacts, find, MOST_ITERATIONS, TOLERANCE)
 
     def _found(self, last: NDArray[np.float64] | None, most: int, fine: float) -> Outcome:
         """A zero of the residual, in so many iterations at most, the last of this size."""
-        self._most, self._fine, self._foresights = most, fine, FORESIGHTS if most == DIRECT else 0
+        self._most, self._fine, self._foresights = most, fine, FORESIGHTS if most <= DIRECT else 0
         self._X.array[:] = self.problem.x[: self.problem.discretization.n_owned]
         self._size, self._next, self._stalls = np.inf, np.inf, False
         self._watch = self._watched(last)
@@ -239,5 +241,5 @@ class Newton:
             return LOST
         if iteration > 0 and self._settled():
             return reasons.CONVERGED_SNORM_RELATIVE
-        lost = self._most == DIRECT and (self._watch.creeping or self._pivoting.gives_way)
+        lost = self._most <= DIRECT and (self._watch.creeping or self._pivoting.gives_way)
         return reasons.DIVERGED_MAX_IT if lost or iteration >= self._most else reasons.ITERATING

@@ -1,4 +1,7 @@
-"""Equilibrium of rods against walls: straight away, by way of softer walls, and with renewed multipliers."""
+"""Equilibrium of rods against walls: straight away, by way of softer walls, and with renewed multipliers.
+
+Where rods that move meet rods, shorter steps lead there sooner than softer contact does: mass holds what is pressed.
+"""
 
 from __future__ import annotations
 
@@ -17,10 +20,12 @@ if TYPE_CHECKING:
 
     Find = Callable[[int, float], Outcome]
 
-__all__ = ["DIRECT", "ROUGH", "pressed", "renewed"]
+__all__ = ["DIRECT", "ROUGH", "Attempts"]
 
 # Iterations after which a wall is approached by way of softer ones: what is pressed then changes little by little.
 DIRECT = 20
+# Iterations after which a step of such rods is lost, and such steps, one after the other, before it is softened.
+BRIEF, SHORTER = 12, 2
 # Stiffness of the softest in EI/L⁴, against which a rod bends over a tenth of its length, and of each over the last.
 SOFTEST, STIFFER = 1e5, 100.0
 # Increments, relative to the unknowns, at which a softer wall has told enough.
@@ -30,6 +35,26 @@ NEARLY = 1e-2
 # Renewals of multipliers after which a step is given up.
 MOST_RENEWALS = 50
 PENETRATES = "penetrations stayed above the tolerance of an augmented Lagrangian: its eps_N is too small for these rods"
+
+
+class Attempts:
+    """How equilibrium against walls is sought.
+
+    Args:
+        fly: Whether rods that move meet rods.
+    """
+
+    def __init__(self, *, fly: bool) -> None:
+        self._fly, self._lost = fly, 0
+
+    def made(self, x: NDArray[np.float64], contacts: Touching, find: Find, most: int, fine: float) -> Outcome:
+        """Equilibrium with multipliers in line with it; arguments as for `pressed`."""
+        if self._fly and self._lost < SHORTER:
+            found = renewed(contacts, lambda fine: find(BRIEF, fine), fine)
+        else:
+            found = renewed(contacts, lambda fine: pressed(x, contacts, find, most, fine), fine)
+        self._lost = 0 if found.converged else self._lost + 1
+        return found
 
 
 def pressed(x: NDArray[np.float64], contacts: Touching, find: Find, most: int, fine: float) -> Outcome:
