@@ -63,7 +63,7 @@ class Newton:
         self._r, self._q, self._foresights = d.owned_nodes("r"), d.owned_nodes("q"), 0
         self._sizes, self._m = Sizes(d, ("r", "N", "m")), d.owned_nodes("m").ravel()
         self._pivoting = Pivoting(problem, self._r)
-        self._attempts = Attempts(fly=problem.pairs is not None and isinstance(problem.scene.motion, Dynamic))
+        self._attempts = Attempts(problem.pairs if isinstance(problem.scene.motion, Dynamic) else None)
         self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
         self._size = self._next = self._moved = np.inf
         self._stalls = False

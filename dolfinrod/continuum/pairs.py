@@ -164,6 +164,11 @@ class Pairs:
         return self._on_any_rank(any(meeting.changed for meeting in self._meetings))
 
     @property
+    def near(self) -> bool:
+        """Whether any rods may touch soon."""
+        return self._on_any_rank(any(meeting.near for meeting in self._meetings))
+
+    @property
     def pierced(self) -> bool:
         """Whether the step has led a rod through another, or past it so far that contact wins energy."""
         self._respond()

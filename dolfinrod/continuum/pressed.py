@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from dolfinrod.continuum.newton import Outcome
+    from dolfinrod.continuum.pairs import Pairs
     from dolfinrod.continuum.together import Touching
 
     Find = Callable[[int, float], Outcome]
@@ -41,15 +42,15 @@ class Attempts:
     """How equilibrium against walls is sought.
 
     Args:
-        fly: Whether rods that move meet rods.
+        pairs: Of rods that may meet as they move; None: there are none, or nothing moves.
     """
 
-    def __init__(self, *, fly: bool) -> None:
-        self._fly, self._lost = fly, 0
+    def __init__(self, pairs: Pairs | None) -> None:
+        self._pairs, self._lost = pairs, 0
 
     def made(self, x: NDArray[np.float64], contacts: Touching, find: Find, most: int, fine: float) -> Outcome:
         """Equilibrium with multipliers in line with it; arguments as for `pressed`."""
-        if self._fly and self._lost < SHORTER:
+        if self._pairs is not None and self._lost < SHORTER and self._pairs.near:
             found = renewed(contacts, lambda fine: find(BRIEF, fine), fine)
         else:
             found = renewed(contacts, lambda fine: pressed(x, contacts, find, most, fine), fine)

@@ -89,6 +89,11 @@ class Meeting:
         return self._state.tobytes()
 
     @property
+    def near(self) -> bool:
+        """Whether any of them may touch until `stale`."""
+        return len(self._near.a) > 0
+
+    @property
     def pairs(self) -> Integers:
         """Pairs of cells that may touch until `stale`, shape (n, 2)."""
         cells = np.stack([self._spans.cell[self._near.a], self._spans.cell[self._near.b]], axis=1)
