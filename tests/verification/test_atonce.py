@@ -5,6 +5,8 @@ from __future__ import annotations
 from os import getpid
 from typing import TYPE_CHECKING
 
+import pytest
+
 from verification.atonce import at_once
 from verification.cold import Cold
 from verification.ledger import Ledger, Unit
@@ -25,6 +27,7 @@ def plan() -> tuple[Unit, ...]:
     return tuple(Unit("cost", f"unit {k}", (k,), process, alone=k == 1) for k in range(4))
 
 
+@pytest.mark.serial
 def test_what_compares_times_on_all_cores_waits_until_the_others_are_done(tmp_path: Path) -> None:
     ledger, told = Ledger(tmp_path, this_machine()), list[tuple[int, str, bool]]()
     at_once(plan, ledger, 2, lambda done, unit, recalled: told.append((done, unit.words, recalled)))
