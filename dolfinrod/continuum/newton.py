@@ -67,7 +67,7 @@ class Newton:
         self._multipliers = np.unique(d.dofs.get("multiplier", np.zeros(0, dtype=np.int32)))
         self._size = self._next = self._moved = np.inf
         self._stalls = False
-        # Each of the nodes between a support and a rod's end may round its position off.
+        # Positions are rounded off node after node along a rod; the nodes of all rods are more than those of any.
         self._round_off = max(NEGLIGIBLE, float(np.finfo(float).eps) * d.comm.allreduce(len(self._r)))
         self._open()
 

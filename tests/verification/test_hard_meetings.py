@@ -49,6 +49,15 @@ def test_an_arrow_does_not_pass(model, scheme):
     assert (row.outcome, row.holds) == ("converged", True)
 
 
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("name", ["shot-3-4", "oblique-1"])
+def test_steps_lost_where_rods_meet_are_halved_before_all_else_is_tried(name, model):
+    """Whatever else leads through the whole of such a step takes more than 12 iterations a step."""
+    row = hard_contact(BY_NAME[name], model, ImplicitEuler())
+    assert (row.outcome, row.holds) == ("converged", True)
+    assert row.cuts > 0
+
+
 def test_a_crossing_is_as_deep_as_its_lens_says():
     """Of straight rods that cross at right angles; this one crosses at 1.2 rad, over 1/sin of that length."""
     lens, h = Lens(1e6, 2e-5), 1e-9

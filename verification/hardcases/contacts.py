@@ -194,7 +194,7 @@ def over_lip() -> HardContact:
 def across_edge() -> HardContact:
     """Its free end hangs over a lip, pulled down until it stands up, 2.7 rad, by one half of the load and the other.
 
-    Nodes alone feel the edge, and rest on either side of it: ends that load steps lead to are two chords apart.
+    Nodes alone feel the edge, and rest on either side of it: ends that load steps lead to lie within two chords.
     """
 
     def scene() -> Scene:
