@@ -12,6 +12,7 @@ import numpy as np
 from dolfinrod.result import NotConverged
 from dolfinrod.scene import Dynamic, ImplicitEuler, Midpoint, SceneError, Static
 from verification.answers import solved
+from verification.contact import MOST_ITERATIONS
 from verification.contactaudit import audit, deepest_of
 from verification.hardmotion import ROUND_OFF
 from verification.patience import CRAWLS, Patience
@@ -22,10 +23,7 @@ if TYPE_CHECKING:
     from dolfinrod.scene.motion import Scheme
     from verification.answers import Answer
 
-__all__ = ["MOST_ITERATIONS", "ContactRow", "HardContact", "hard_contact", "pairs"]
-
-# Newton iterations a step on average, failed attempts included, that contact may take.
-MOST_ITERATIONS = 12.0
+__all__ = ["ContactRow", "HardContact", "hard_contact", "pairs"]
 
 
 @dataclass(frozen=True)

@@ -57,7 +57,7 @@ class Pairs:
     def __init__(self, problem: Problem, level: float = 1.0) -> None:
         self._problem, self._level, self.everywhere = problem, level, Everywhere(problem)
         self.r, self.q = self.everywhere.r, self.everywhere.q
-        self._meetings = meetings(problem, self.everywhere, level)
+        self._meetings, self._neared = meetings(problem, self.everywhere, level), False
         self.turns = any(meeting.turns for meeting in self._meetings)
         self.at = np.concatenate([self.r, self.q], axis=1) if self.turns else self.r
         self.place(0.0)
@@ -73,7 +73,7 @@ class Pairs:
 
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
-        self.t, self._seen = t, None
+        self.t, self._seen, self._neared = t, None, False
         for meeting in self._meetings:
             meeting.begin(t)
 
@@ -97,6 +97,7 @@ class Pairs:
         force = self.everywhere.summed(np.sum([one.force for one in felt], axis=0))
         moment = np.sum([one.moment for one in felt], axis=0)
         self._force, self.met = force[self.everywhere.own], bool(force.any())
+        self._neared = self._neared or any(meeting.near for meeting in self._meetings)
         self._moment = (self.everywhere.summed(moment) if self.turns else moment)[self.everywhere.own]
         self._seen, self._links = now, None
 
@@ -165,8 +166,8 @@ class Pairs:
 
     @property
     def near(self) -> bool:
-        """Whether any rods may touch soon."""
-        return self._on_any_rank(any(meeting.near for meeting in self._meetings))
+        """Whether any rods came so near each other in the step that they may touch."""
+        return self._on_any_rank(self._neared)
 
     @property
     def pierced(self) -> bool:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from dolfinrod.continuum.together import Touching
 
     Find = Callable[[int, float], Outcome]
+    Lost = Callable[[], bool]
 
 __all__ = ["DIRECT", "ROUGH", "Attempts"]
 
@@ -50,15 +51,20 @@ class Attempts:
 
     def made(self, x: NDArray[np.float64], contacts: Touching, find: Find, most: int, fine: float) -> Outcome:
         """Equilibrium with multipliers in line with it; arguments as for `pressed`."""
-        if self._pairs is not None and self._lost < SHORTER and self._pairs.near:
-            found = renewed(contacts, lambda fine: find(BRIEF, fine), fine)
-        else:
-            found = renewed(contacts, lambda fine: pressed(x, contacts, find, most, fine), fine)
+        pairs, lost = self._pairs, None
+        if pairs is not None and self._lost < SHORTER:
+
+            def lost() -> bool:
+                return pairs.near
+
+        found = renewed(contacts, lambda fine: pressed(x, contacts, find, most, fine, lost), fine)
         self._lost = 0 if found.converged else self._lost + 1
         return found
 
 
-def pressed(x: NDArray[np.float64], contacts: Touching, find: Find, most: int, fine: float) -> Outcome:
+def pressed(
+    x: NDArray[np.float64], contacts: Touching, find: Find, most: int, fine: float, lost: Lost | None = None
+) -> Outcome:
     """Equilibrium with multipliers as they are.
 
     Args:
@@ -67,14 +73,16 @@ def pressed(x: NDArray[np.float64], contacts: Touching, find: Find, most: int, f
         find: Newton's method from the state on: most iterations, and increments at which it is done.
         most: Iterations allowed in the last stage.
         fine: Increments at which that is done.
+        lost: Whether to leave it at few iterations that have not led there; None: never.
 
     Returns:
         How it ended, all iterations counted.
     """
     start = x.copy()
     stages = max(0, ceil(log(max(contacts.stiffness / SOFTEST, 1.0), STIFFER)))
-    found = find(DIRECT if stages else most, fine)
-    if found.converged or not stages:
+    direct = DIRECT if stages else most
+    found = find(direct, fine) if lost is None else _in_two(find, direct, fine, lost)
+    if found.converged or not stages or (lost is not None and lost()):
         return found
     spent = found.iterations
     x[:] = start
@@ -88,6 +96,15 @@ def pressed(x: NDArray[np.float64], contacts: Touching, find: Find, most: int, f
     contacts.soften(1.0)
     found = find(most, fine)
     return replace(found, iterations=spent + found.iterations)
+
+
+def _in_two(find: Find, most: int, fine: float, lost: Lost) -> Outcome:
+    """Newton's method, asked after `BRIEF` iterations whether it is to go on."""
+    found = find(BRIEF, fine)
+    if found.converged or found.iterations < BRIEF or lost():
+        return found
+    more = find(most - BRIEF, fine)
+    return replace(more, iterations=BRIEF + more.iterations)
 
 
 def renewed(contacts: Touching, find: Callable[[float], Outcome], fine: float) -> Outcome:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from dolfinrod.scene import AugmentedLagrangian
-from verification.contact import contactstudy
+from verification.contact import MOST_ITERATIONS, contactstudy
 from verification.contacts import NORMAL
 from verification.contacts.cylinders import wound
 from verification.contacts.runs import DISCRETE, PLANE, SPACE, touch
@@ -16,8 +16,10 @@ from verification.contacttrials import CONTACT
 from verification.references.contact import edges, solved_anew, touching, value, wound_evenly
 from verification.references.contactposed import FALLS, POSED, WALLS, WOUND, quantities
 from verification.references.contactrod import ANGLE, M, Y
+from verification.report.misses import sentence
 
 BY_NAME = {case.name: case for case in NORMAL}
+ROPES = {case.name: case for case in CONTACT.cases if case.name.startswith("capstan")}
 # Cases of a few milliseconds, and the first of their runs that are marked for quick reports.
 CHEAP = [name for name in BY_NAME if not any(word in name for word in ("wall", "wound", "roller", "touchdown"))]
 DEAR = sorted(BY_NAME.keys() - CHEAP)
@@ -119,6 +121,21 @@ def test_a_refused_level_does_not_hold():
     found = study("contact-v-45", "continuum")
     failed = replace(found.records[-1], failure="none found")
     assert not replace(found, records=(*found.records[:-1], failed)).holds
+
+
+def test_many_iterations_a_step_are_missed():
+    found = study("contact-v-45", "continuum")
+    slow = replace(found.records[-1], iterations=round(MOST_ITERATIONS * found.records[-1].steps) + 1)
+    beyond = replace(found, records=(*found.records[:-1], slow))
+    assert not beyond.holds
+    assert f"iterations a step for {slow.level} elements, at most 12" in sentence(beyond)
+
+
+def test_a_rope_pulled_again_is_cut_sooner_than_its_wall_is_softened():
+    """Softer walls took 16 iterations a step: friction has a path, and shorter steps along it take fewer."""
+    (run,) = (run for run in ROPES["capstan-loses-0.3-180-0.9"].runs if run.model == "discrete")
+    found = run.solve(8)
+    assert found.statistics.newton_iterations <= MOST_ITERATIONS * found.statistics.load_steps
 
 
 def test_references_on_walls_that_yield_tend_to_those_on_rigid_ones():

@@ -10,13 +10,14 @@ import pytest
 
 from dolfinrod.scene import Section, Static
 from verification.answers import Exact
+from verification.contact import MOST_ITERATIONS
 from verification.contacts.groove import CASES as GROOVE_CASES
 from verification.contacts.groove import FEED, HALF_WIDTH, LENGTH, fibre, lateral
 from verification.contactwork import GROOVE, HARD, HARD_CONTACT, WALLS, units
 from verification.groovebench import LIMIT, GroovePoint, GrooveSweep, Setup, sweep
 from verification.grooveprofile import AGREES, GrooveProfile, SideBySide
 from verification.hardcases.rodshots import SHOTS
-from verification.hardcontact import MOST_ITERATIONS, ContactRow, hard_contact, pairs
+from verification.hardcontact import ContactRow, hard_contact, pairs
 from verification.report.groove import groove
 from verification.report.hardcontact import hard_contacts
 

@@ -12,7 +12,7 @@ from verification.report.tables import Column, Group, Mark, Row, Swatch, count, 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from verification.contact import ContactRecord, ContactStudy
+    from verification.contact import ContactStudy
 
 __all__ = ["TITLE", "WORDS", "contact_cases"]
 
@@ -108,16 +108,11 @@ def _row(s: ContactStudy) -> Row:
         ", ".join(scientific(r.error) for r in s.records),
         order,
         scientific(s.limit, 0),
-        f"{max(map(_a_step, s.records)):.1f}",
+        f"{max(r.a_step for r in s.records):.1f}",
         count(sum(r.cuts for r in s.records)),
         ms(1e-3 * s.records[-1].ms),
         Mark(s.holds, bad=failures[0] if failures else "missed"),
     )
-
-
-def _a_step(record: ContactRecord) -> float:
-    """Newton iterations a step, failed attempts included."""
-    return record.iterations / max(record.steps, 1)
 
 
 def _references(found: Sequence[ContactStudy]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from verification.hardcontact import MOST_ITERATIONS
+from verification.contact import MOST_ITERATIONS
 from verification.report.tables import Column, Group, Mark, Row, count, ms, scientific, table
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import Any
 
 from verification.checks import Check
 from verification.cold import Cold
-from verification.contact import ContactStudy
+from verification.contact import MOST_ITERATIONS, ContactStudy
 from verification.contactmaps import ContactCell
 from verification.crosscheck import BAND, CrossCheck
 from verification.drift import KEPT, DriftStudy
@@ -16,7 +16,7 @@ from verification.frequency import FrequencyStudy
 from verification.groovebench import LIMIT, GrooveSweep
 from verification.grooveprofile import AGREES, SideBySide
 from verification.hard import HardRow, Share
-from verification.hardcontact import MOST_ITERATIONS, ContactRow
+from verification.hardcontact import ContactRow
 from verification.hardmotion import MotionRow
 from verification.laws import LawRow
 from verification.maps import Cell
@@ -243,6 +243,10 @@ def _(row: ContactStudy) -> str:
     for one in row.records:
         if one.failure:
             return f"{found}, no solution for {one.level} {row.unit}: {one.failure}"
+        if one.a_step > MOST_ITERATIONS:
+            return (
+                f"{found}, {one.a_step:.1f} iterations a step for {one.level} {row.unit}, at most {MOST_ITERATIONS:g}"
+            )
     if row.limit is not None and row.records[-1].error > row.limit:
         at = f"{scientific(row.records[-1].error)} off for {row.records[-1].level} {row.unit}"
         return f"{found}, {at}, at most {scientific(row.limit, 0)}"
