@@ -122,7 +122,7 @@ class Chord(Newton):
     @property
     def _ends(self) -> bool:
         """Whether round-off is left: in stiff rods that of the positions is more than `TOLERANCE` of the forces."""
-        return self._stalls and (self._size < TOLERANCE or self._moved < NEGLIGIBLE)
+        return self._stalls and (self._size < TOLERANCE or self._moved < self._round_off)
 
     def _settled(self) -> bool:
         small = self._next < NEGLIGIBLE or (self._is_fresh and self._size < TOLERANCE)
