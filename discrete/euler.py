@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.approach import approach
-from discrete.assembly import SingularTangentError
 from discrete.ends import Ends
 from discrete.factors import Workshop
 from discrete.pace import FINE, Pace
 from discrete.rotation import tangents
-from discrete.step import PiercedError, Step, StepLostError
+from discrete.step import Step, StepLostError
 from discrete.taken import Balance, Taken
 from discrete.unknowns import SPIN, X
 from discrete.walls import Walls
+from discrete.ways import Ways
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -84,8 +84,8 @@ class BackwardEuler:
         self.contacts = contacts
         alone = drag is None and (contacts is None or contacts.walls is None)
         self._workshop = Workshop(mesh, supports, inertia.m if alone else None)
-        self._still, self._lost = np.zeros_like(mesh.x), False
-        self._meet = contacts is not None and contacts.others is not None
+        self._still = np.zeros_like(mesh.x)
+        self._ways = Ways(meet=contacts is not None and contacts.others is not None)
 
     @property
     def factorizations(self) -> int:
@@ -111,27 +111,20 @@ class BackwardEuler:
         Raises:
             StepLostError: It could not be taken.
         """
-        level = self.loads.level(t)
+        level, workshop = self.loads.level(t), self._workshop
+
+        def straight() -> Taken:
+            return self._iterated(self._begun(now, t, staying=False), law, level, 0)
+
+        def approached() -> Taken:
+            step = self._begun(now, t, staying=True)
+            spent = approach(step, self.mesh, law, lambda *at: self._increments(level, *at))
+            workshop.forget()
+            return self._iterated(step, law, level, spent)
+
         # Chords that vanish on the way to nowhere have no direction; what is not finite ends the iteration.
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            try:
-                return self._iterated(self._begun(now, t, staying=False), law, level, 0)
-            except PiercedError:
-                self._workshop.factors = None
-                raise
-            except (SingularTangentError, StepLostError) as error:
-                # Where rods touch rods, half a step leads on sooner than another way through the whole of it.
-                self._workshop.factors, self._lost = None, self._meet and not self._lost
-                if self._lost:
-                    raise StepLostError(str(error)) from error
-            try:
-                step = self._begun(now, t, staying=True)
-                spent = approach(step, self.mesh, law, lambda *at: self._increments(level, *at))
-                self._workshop.factors = None
-                return self._iterated(step, law, level, spent)
-            except (SingularTangentError, StepLostError) as error:
-                self._workshop.factors = None
-                raise StepLostError(str(error)) from error
+            return self._ways.taken(straight, approached, workshop.forget)
 
     def _begun(self, now: Moving, t: float, *, staying: bool) -> Step:
         """First guess."""
@@ -231,7 +224,7 @@ class BackwardEuler:
 
     def _taken(self, step: Step, found: Increments, at: Balance, level: LoadLevel, iterations: int) -> Taken:
         """The step, what acted before its last increment carried on along it."""
-        change, yielded, self._lost = found.stretched(self._ends), found.pressed(), False
+        change, yielded = found.stretched(self._ends), found.pressed()
         added = self._ends.scatter(change)
         energy = float(at.energy.sum()) + float(np.vdot(at.internal + 0.5 * added, found.d))
         state = step.end()

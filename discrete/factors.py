@@ -75,6 +75,10 @@ class Workshop:
         if self.factors is not None and abs(self.factors.dt / dt - 1.0) > OTHER_STEP:
             self.factors = None
 
+    def forget(self) -> None:
+        """Give the factors up."""
+        self.factors = None
+
     def enough(self, size: float, before: float, goal: float, pace: Pace | None) -> bool:
         """Whether what an increment leaves is below a goal; arguments as for `Pace`, None where no rods may touch."""
         if pace is None:

@@ -128,7 +128,7 @@ def test_many_iterations_a_step_are_missed():
     slow = replace(found.records[-1], iterations=round(MOST_ITERATIONS * found.records[-1].steps) + 1)
     beyond = replace(found, records=(*found.records[:-1], slow))
     assert not beyond.holds
-    assert f"iterations a step for {slow.level} elements, at most 12" in sentence(beyond)
+    assert f"{slow.level} elements: 13.0 iterations a step, at most 12" in sentence(beyond)
 
 
 def test_a_rope_pulled_again_is_cut_sooner_than_its_wall_is_softened():

@@ -13,6 +13,8 @@ __all__ = ["HEIGHT", "WIDTH", "Curve", "Star", "log_log", "markers", "power_of_t
 WIDTH, HEIGHT = 360, 290
 LEFT, RIGHT, TOP, BOTTOM = 46, 24, 10, 40
 LETTER = 12
+# A letter's width, at most, of those in most labels.
+BROAD = 7.0
 # Marker of each kind of curve, as a path about the origin.
 MARKERS = {
     "p1": "M-3,0a3,3 0 1,0 6,0a3,3 0 1,0 -6,0",
@@ -177,15 +179,17 @@ def theory(curve: Curve, across: Axis, up: Axis) -> str:
 
 
 def labels(curves: Iterable[Curve], across: Axis, up: Axis) -> Iterable[str]:
-    """Labels of curves, those left out that would cover another one."""
-    taken: list[tuple[float, float]] = []
+    """Labels of curves, beside their points where they cover no other one; left out where there is no such place."""
+    taken: list[tuple[float, float, float]] = []
     for c in curves:
         if not c.label:
             continue
-        x, y = across(c.x[c.at]) + 5, up(c.y[c.at]) - 4
-        if all(abs(y - b) > LETTER or abs(x - a) > 30 for a, b in taken):
-            taken.append((x, y))
-            yield text(x, y, c.label, kind=c.kind)
+        x, y, wide = across(c.x[c.at]), up(c.y[c.at]), BROAD * len(c.label)
+        for begin, base in ((x + 5, y - 4), (x + 5, y + LETTER), (x - 5 - wide, y - 4)):
+            if all(abs(base - b) > LETTER or begin > a + w or a > begin + wide for a, b, w in taken):
+                taken.append((begin, base, wide))
+                yield text(begin, base, c.label, kind=c.kind)
+                break
 
 
 def star(point: Star, x: float, y: float) -> str:

@@ -99,7 +99,7 @@ def _table(found: Sequence[ContactStudy]) -> str:
 
 def _row(s: ContactStudy) -> Row:
     """One run."""
-    failures = [r.failure for r in s.records if r.failure]
+    missed = [r.missed for r in s.records if r.missed]
     order = power(s.order) if s.least is None else f"{power(s.order)} ({s.least:g})"
     return (
         s.model,
@@ -111,7 +111,7 @@ def _row(s: ContactStudy) -> Row:
         f"{max(r.a_step for r in s.records):.1f}",
         count(sum(r.cuts for r in s.records)),
         ms(1e-3 * s.records[-1].ms),
-        Mark(s.holds, bad=failures[0] if failures else "missed"),
+        Mark(s.holds, bad=missed[0] if missed else "missed"),
     )
 
 

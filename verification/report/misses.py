@@ -241,12 +241,8 @@ def verdict(stable: bool | None) -> str:
 def _(row: ContactStudy) -> str:
     found = f"{row.title}: {row.model}, {row.label}"
     for one in row.records:
-        if one.failure:
-            return f"{found}, no solution for {one.level} {row.unit}: {one.failure}"
-        if one.a_step > MOST_ITERATIONS:
-            return (
-                f"{found}, {one.a_step:.1f} iterations a step for {one.level} {row.unit}, at most {MOST_ITERATIONS:g}"
-            )
+        if one.missed:
+            return f"{found}, {one.level} {row.unit}: {one.missed}"
     if row.limit is not None and row.records[-1].error > row.limit:
         at = f"{scientific(row.records[-1].error)} off for {row.records[-1].level} {row.unit}"
         return f"{found}, {at}, at most {scientific(row.limit, 0)}"
