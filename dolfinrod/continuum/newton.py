@@ -45,6 +45,8 @@ TOLERANCE = 1e-9
 NEGLIGIBLE = 1e-13
 # An increment above this part of the one before is no Newton step: where nothing moves, it is round-off of the forces.
 STALLED = 0.1
+# Round-off of positions after a linear solution, over that of as many sums in a row as there are nodes.
+ROUNDED = 4.0
 # Turn in an iteration [rad] beyond which what it presses is found out before anything moves, and in how many trials.
 WIDE, FORESIGHTS = 0.1, 2
 
@@ -68,7 +70,7 @@ class Newton:
         self._size = self._next = self._moved = np.inf
         self._stalls = False
         # Positions are rounded off node after node along a rod; the nodes of all rods are more than those of any.
-        self._round_off = max(NEGLIGIBLE, float(np.finfo(float).eps) * d.comm.allreduce(len(self._r)))
+        self._round_off = max(NEGLIGIBLE, ROUNDED * float(np.finfo(float).eps) * d.comm.allreduce(len(self._r)))
         self._open()
 
     def _open(self) -> None:

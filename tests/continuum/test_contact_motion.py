@@ -249,3 +249,21 @@ def test_ranks_do_not_matter(kinematics, scheme):
     assert max(differences(together, alone).values()) <= 1e-8
     for name in ("friction", "contact", "wall work"):
         np.testing.assert_allclose(together.energy[name], alone.energy[name], atol=1e-10)
+
+
+STIFF = [(dr.ImplicitEuler(), 100, 1e11), (dr.ImplicitEuler(), 400, 1e9), (dr.Midpoint(), 400, 1e9)]
+
+
+@both_kinematics
+@pytest.mark.parametrize(("scheme", "elements", "eps_N"), STIFF, ids=["Euler stiffer", "Euler finer", "midpoint finer"])
+def test_round_off_of_stiff_walls_ends_an_iteration(kinematics, scheme, elements, eps_N):
+    """A fibre of 4 cm pressed to a wall: what is rounded off of positions is more of the forces than a tolerance."""
+    fibre = dr.Section.ramie()
+    rod = FLAT.straight(fibre, start=(0.0, fibre.radius, 0.0), length=0.04)
+    wall = dr.Contact(dr.Plane((0.0, 0.0, 0.0), (0.0, 1.0, 0.0)), dr.Penalty(eps_N), dr.Coulomb(0.3))
+    motion = dr.Dynamic(8e-6, 1e-6, scheme)
+    scene = dr.Scene([rod], loads=[dr.LineForce((1e-3, -1e-2, 0.0))], contacts=[wall], motion=motion)
+    result = dr.solve(scene, elements=elements, degree=3, kinematics=kinematics)
+    assert result.statistics.load_steps == 8
+    assert result.statistics.newton_iterations <= 6 * 8
+    assert result.contacts[0].force[-1] @ np.array([0.0, 1.0, 0.0]) > 0.0
