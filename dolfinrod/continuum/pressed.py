@@ -51,12 +51,8 @@ class Attempts:
 
     def made(self, x: NDArray[np.float64], contacts: Touching, find: Find, most: int, fine: float) -> Outcome:
         """Equilibrium with multipliers in line with it; arguments as for `pressed`."""
-        pairs, lost = self._pairs, None
-        if pairs is not None and self._lost < SHORTER:
-
-            def lost() -> bool:
-                return pairs.near
-
+        pairs = self._pairs
+        lost = None if pairs is None or self._lost >= SHORTER else lambda: pairs.near
         found = renewed(contacts, lambda fine: pressed(x, contacts, find, most, fine, lost), fine)
         self._lost = 0 if found.converged else self._lost + 1
         return found
