@@ -107,7 +107,7 @@ class Grip:
         """
         half = 0.5 if self._rounds.overshoots(self._contacts.sets, change) else 1.0
         way = float(np.sqrt(np.einsum("ni,ni->n", d[:, X], d[:, X]).max()))
-        return min(half, self._contacts.stride / way) if way > 0.0 else half
+        return min(half, self._contacts.part(way))
 
     @property
     def lost(self) -> bool:

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 __all__ = ["CROSSED", "Encounters"]
 
+# Of the least radius, that rods which touch go in an iteration.
+STRIDE = 0.5
 CROSSED = "a rod went through or leapt past another in one step"
 
 
@@ -149,13 +151,17 @@ class Encounters:
             self._links = Links([one for one in couplings if len(one.nodes)], self._units, Θ)
         return self._links
 
-    @property
-    def stride(self) -> float:
-        """How far rods may go in an iteration once they touch: where contact has just begun, a full one is a leap.
+    def part(self, way: float) -> float:
+        """Part of a way that rods may go in an iteration once they touch: where contact has just begun, it is a leap.
 
-        Half of the least radius leaves normals what they are; a diameter leads past the rod that was touched.
+        Half of the least radius leaves normals what they are; a diameter leads past the rod that was touched. The next
+        iteration after a leap leaves out that normals turn: forces far from balance, which turn with them, would push
+        the rods anywhere.
         """
-        return 0.5 * float(np.nanmin(self._radius)) / self._units.length if self.met else np.inf
+        stride = STRIDE * float(np.nanmin(self._radius)) / self._units.length if self.met else np.inf
+        for meeting in self._meetings:
+            meeting.steady = way > stride
+        return min(1.0, stride / way) if way > 0.0 else 1.0
 
     @property
     def pattern(self) -> bytes:

@@ -99,10 +99,9 @@ class Surroundings:
         """Whether any law has multipliers."""
         return self.walls is not None and self.walls.renews
 
-    @property
-    def stride(self) -> float:
-        """How far rods that touch one another may go in an iteration, in units of the model."""
-        return np.inf if self.others is None else self.others.stride
+    def part(self, way: float) -> float:
+        """Part of a way in units of the model that rods which touch one another may go in an iteration."""
+        return 1.0 if self.others is None else self.others.part(way)
 
     @property
     def sets(self) -> bytes:

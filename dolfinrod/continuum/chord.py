@@ -9,7 +9,7 @@ import numpy as np
 
 from dolfinrod.continuum.coupled import CoupledLU
 from dolfinrod.continuum.newton import NEGLIGIBLE, STALLED, TOLERANCE, Newton, Outcome
-from dolfinrod.continuum.watch import Unwatched
+from dolfinrod.continuum.watch import Parting, Unwatched
 
 if TYPE_CHECKING:
     from petsc4py import PETSc
@@ -71,9 +71,12 @@ class Chord(Newton):
         self._serves = self._serves and outcome.converged and self._excess < self._dear
 
     def _watched(self, last: NDArray[np.float64] | None) -> Unwatched:
-        return Unwatched()
+        return Unwatched() if self.problem.pairs is None else Parting(self.problem)
 
     def _tangent(self, snes: PETSc.SNES, X: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
+        walls = self.problem.walls
+        if walls is not None and np.isfinite(self._size) and walls.changed:
+            self._serves = False
         self._is_fresh = not self._serves
         if self._is_fresh:
             super()._tangent(snes, X, A, P)

@@ -24,7 +24,8 @@ PART = 0.5
 def part_taken(problem: Problem, ways: NDArray[np.float64]) -> float:
     """Part of a step of statics by which no rod that may touch another leaps past it; all of it where none touches.
 
-    Where contact has just begun nothing but it may hold a rod, and the first linear step is far too long.
+    Where contact has just begun nothing but it may hold a rod, and the first linear step is far too long. The next one
+    leaves out that normals turn: forces far from balance, which turn with them, would push the rods anywhere.
 
     Args:
         problem: With its rods where the step begins.
@@ -36,4 +37,6 @@ def part_taken(problem: Problem, ways: NDArray[np.float64]) -> float:
     longest = float(np.sqrt(np.einsum("ni,ni->n", ways, ways).max(initial=0.0)))
     longest = problem.discretization.comm.allreduce(longest, op=MPI.MAX)
     radius = min(rod.section.radius or np.inf for rod in problem.scene.rods) / problem.placement.length
-    return 1.0 if longest <= PART * radius else PART * radius / longest
+    for meeting in pairs.meetings:
+        meeting.steady = longest > PART * radius
+    return min(1.0, PART * radius / longest) if longest > 0.0 else 1.0

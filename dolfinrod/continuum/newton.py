@@ -47,6 +47,8 @@ NEGLIGIBLE = 1e-13
 STALLED = 0.1
 # Round-off of positions after a linear solution, over that of as many sums in a row as there are nodes.
 ROUNDED = 4.0
+# Increments of an iteration that is worth going on with however few it was given.
+CLOSE = 1e-3
 # Turn in an iteration [rad] beyond which what it presses is found out before anything moves, and in how many trials.
 WIDE, FORESIGHTS = 0.1, 2
 
@@ -244,4 +246,5 @@ class Newton:
         if iteration > 0 and self._settled():
             return reasons.CONVERGED_SNORM_RELATIVE
         lost = self._most <= DIRECT and (self._watch.creeping or self._pivoting.gives_way)
-        return reasons.DIVERGED_MAX_IT if lost or iteration >= self._most else reasons.ITERATING
+        most = DIRECT if self._most < DIRECT and self._size < CLOSE else self._most
+        return reasons.DIVERGED_MAX_IT if lost or iteration >= most else reasons.ITERATING

@@ -45,6 +45,7 @@ class Pairs:
         inside: Blocks of single nodes at the last call of `blocks`, shape (n, d + n_q or d, d + n_q or d).
         at: Dofs of this rank's own nodes that these are of, shape (n, d + n_q or d).
         everywhere: The nodes of all rods.
+        meetings: One for each contact of rods in the scene.
         met: Whether any rods pushed each other in the last answer.
         r: Centreline dofs of this rank's own nodes, shape (n, d).
         q: Their rotation dofs, shape (n, n_q).
@@ -57,8 +58,8 @@ class Pairs:
     def __init__(self, problem: Problem, level: float = 1.0) -> None:
         self._problem, self._level, self.everywhere = problem, level, Everywhere(problem)
         self.r, self.q = self.everywhere.r, self.everywhere.q
-        self._meetings, self._neared = meetings(problem, self.everywhere, level), False
-        self.turns = any(meeting.turns for meeting in self._meetings)
+        self.meetings, self._neared = meetings(problem, self.everywhere, level), False
+        self.turns = any(meeting.turns for meeting in self.meetings)
         self.at = np.concatenate([self.r, self.q], axis=1) if self.turns else self.r
         self.place(0.0)
 
@@ -67,14 +68,14 @@ class Pairs:
         self.t, self._q_0 = t, self._problem.x[self.q]
         self._acting = self._q_0
         x, self._seen = self._positions(), None
-        for meeting in self._meetings:
+        for meeting in self.meetings:
             meeting.place(x, t)
         self._respond()
 
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
         self.t, self._seen, self._neared = t, None, False
-        for meeting in self._meetings:
+        for meeting in self.meetings:
             meeting.begin(t)
 
     def _positions(self) -> Array:
@@ -93,11 +94,11 @@ class Pairs:
         if self.turns:
             turned = problem.kinematics.rotation_vector(self._q_0, problem.x[self.q])
             turn = self.everywhere.gathered(turned @ place.spin_axes.T)
-        felt = [meeting.respond(now[:, :3], turn) for meeting in self._meetings]
+        felt = [meeting.respond(now[:, :3], turn) for meeting in self.meetings]
         force = self.everywhere.summed(np.sum([one.force for one in felt], axis=0))
         moment = np.sum([one.moment for one in felt], axis=0)
         self._force, self.met = force[self.everywhere.own], bool(force.any())
-        self._neared = self._neared or any(meeting.near for meeting in self._meetings)
+        self._neared = self._neared or any(meeting.near for meeting in self.meetings)
         self._moment = (self.everywhere.summed(moment) if self.turns else moment)[self.everywhere.own]
         self._seen, self._links = now, None
 
@@ -131,7 +132,7 @@ class Pairs:
         self._respond()
         if self._links is None:
             frames, turning = self._frames(self._acting), self._turning(self._acting) if self.turns else None
-            gradients = [meeting.gradient() for meeting in self._meetings]
+            gradients = [meeting.gradient() for meeting in self.meetings]
             self._links = Links(gradients, frames, self.everywhere, turning)
         return self._links
 
@@ -162,7 +163,7 @@ class Pairs:
     @property
     def changed(self) -> bool:
         """Whether anything has come to touch, stick or slide, or ceased to, since the answer before the last one."""
-        return self._on_any_rank(any(meeting.changed for meeting in self._meetings))
+        return self._on_any_rank(any(meeting.changed for meeting in self.meetings))
 
     @property
     def near(self) -> bool:
@@ -173,8 +174,8 @@ class Pairs:
     def pierced(self) -> bool:
         """Whether the step has led a rod through another, or past it so far that contact wins energy."""
         self._respond()
-        pierced = self._on_any_rank(any(meeting.pierces() for meeting in self._meetings))
-        return pierced or led_past(self._meetings, self.everywhere)
+        pierced = self._on_any_rank(any(meeting.pierces() for meeting in self.meetings))
+        return pierced or led_past(self.meetings, self.everywhere)
 
     def _on_any_rank(self, mine: bool) -> bool:
         return bool(self._problem.discretization.comm.allreduce(mine, op=MPI.LOR))
@@ -188,7 +189,7 @@ class Pairs:
     def soften(self, by: float) -> None:
         """Let all rods be softer by a factor where they touch, until the next step begins."""
         self._seen = None
-        for meeting in self._meetings:
+        for meeting in self.meetings:
             meeting.soften(by)
 
     renews = False
@@ -199,7 +200,7 @@ class Pairs:
     @property
     def pattern(self) -> bytes:
         """What touches, sticks and slides among this rank's elements."""
-        return b"".join(meeting.pattern for meeting in self._meetings)
+        return b"".join(meeting.pattern for meeting in self.meetings)
 
     def foresee(self, r: Array) -> bool:
         """No long step is taken anew: what rods press against moves with them."""
@@ -213,16 +214,16 @@ class Pairs:
         """The step counts; energy rubbed off among this rank's elements, and none given by walls, in EI/L."""
         self._respond()
         self._q_0 = self._problem.x[self.q]
-        rubbed = sum(meeting.accept()[1] for meeting in self._meetings)
+        rubbed = sum(meeting.accept()[1] for meeting in self.meetings)
         return [rubbed / self._problem.placement.moment, 0.0]
 
     def stored(self) -> float:
         """Energy that this rank's elements store, in EI/L."""
-        return sum(meeting.stored() for meeting in self._meetings) / self._problem.placement.moment
+        return sum(meeting.stored() for meeting in self.meetings) / self._problem.placement.moment
 
     def memory(self) -> Memory:
         """What this rank remembers."""
-        return self.t, self._q_0, [meeting.memory() for meeting in self._meetings]
+        return self.t, self._q_0, [meeting.memory() for meeting in self.meetings]
 
     def take_back(self, memory: Memory) -> None:
         """Be what `memory` said earlier, at the state of that time."""
@@ -231,19 +232,18 @@ class Pairs:
 
     def _recall(self, remembered: Sequence[dict[str, Array]]) -> None:
         self._seen, x = None, self._positions()
-        for meeting, one in zip(self._meetings, remembered, strict=True):
+        for meeting, one in zip(self.meetings, remembered, strict=True):
             meeting.recall(one, x, self.t)
 
     def kept(self) -> State:
         """What all ranks remember, and where rods touch, the same on every rank."""
         self._respond()
-        spots = [meeting.met() for meeting in self._meetings]
-        return kept(self._problem.discretization.comm, self.t, self.memory()[2], spots)
+        comm, spots = self._problem.discretization.comm, [meeting.met() for meeting in self.meetings]
+        return kept(comm, self.t, self.memory()[2], spots)
 
     def recall(self, state: Mapping[str, Array], t: float | None = None) -> None:
         """Go back, or on, to what a state holds, if it does; at another time, if one is given."""
-        found = remembered(state, len(self._meetings))
-        if found is None:
+        if (found := remembered(state, len(self.meetings))) is None:
             return
         self.t, self._q_0 = found[0] if t is None else t, self._problem.x[self.q]
         self._recall(found[1])

@@ -27,7 +27,7 @@ __all__ = ["DIRECT", "ROUGH", "Attempts"]
 # Iterations after which a wall is approached by way of softer ones: what is pressed then changes little by little.
 DIRECT = 20
 # Iterations after which a step of such rods is lost, and such steps, one after the other, before it is softened.
-BRIEF, SHORTER = 12, 2
+BRIEF, SHORTER = 8, 2
 # Stiffness of the softest in EI/L⁴, against which a rod bends over a tenth of its length, and of each over the last.
 SOFTEST, STIFFER = 1e5, 100.0
 # Increments, relative to the unknowns, at which a softer wall has told enough.
@@ -100,7 +100,7 @@ def _in_two(find: Find, most: int, fine: float, lost: Lost) -> Outcome:
     if found.converged or found.iterations < BRIEF or lost():
         return found
     more = find(most - BRIEF, fine)
-    return replace(more, iterations=BRIEF + more.iterations)
+    return replace(more, iterations=found.iterations + more.iterations)
 
 
 def renewed(contacts: Touching, find: Callable[[float], Outcome], fine: float) -> Outcome:

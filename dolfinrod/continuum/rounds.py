@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from dolfinrod.continuum.together import Touching
 
-__all__ = ["Rounds"]
+__all__ = ["SHRUNK", "Rounds"]
 
 # Part of an increment that is left, at most, where an iteration gets on.
 SHRUNK = 0.5

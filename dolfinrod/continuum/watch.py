@@ -8,7 +8,7 @@ from mpi4py import MPI
 
 import numpy as np
 
-from dolfinrod.continuum.rounds import Rounds
+from dolfinrod.continuum.rounds import SHRUNK, Rounds
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Unwatched", "Watch", "largest_turn_between_nodes"]
+__all__ = ["Parting", "Unwatched", "Watch", "largest_turn_between_nodes"]
 
 # Sections that turned this far in all beyond where they got [rad] are lost: what leads somewhere turns one way.
 LARGEST_DETOUR = 8.0
@@ -129,6 +129,28 @@ class Unwatched:
 
     def strayed(self) -> bool:
         """It has not."""
+        return False
+
+
+class Parting(Unwatched):
+    """Watch over rods that meet in a step in time: a shorter one leads there sooner than halves of increments do.
+
+    Args:
+        problem: Of these rods.
+
+    Attributes:
+        creeping: Whether they have parted and met again as before, or have parted on the far side of each other.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self._pairs, self._rounds = problem.pairs, Rounds(problem.discretization.comm, problem.contacts)
+        self.creeping, self._last = False, np.inf
+
+    def returned(self, size: float) -> bool:
+        """No increment is to be halved."""
+        pairs, stays = self._pairs, size > SHRUNK * self._last
+        beyond = stays and pairs is not None and not pairs.met and pairs.near and pairs.pierced
+        self.creeping, self._last = self._rounds.returned(size) or beyond or self.creeping, size
         return False
 
 

@@ -133,6 +133,23 @@ def test_gradient_is_that_of_the_forces(kind, law, level):
 
 
 @every_kind
+def test_steady_contact_only_resists(kind):
+    """Half within each other, rods are turned out of balance by normals that turn; without that, −∂f/∂x ≥ 0."""
+    x = np.concatenate([straight(0.0, 0.0), straight(0.7, RADIUS)])
+    meeting = met(x, strands(kind))
+    f = force(meeting, x)
+    whole = dense(meeting.gradient())
+    meeting.steady = True
+    K = dense(meeting.gradient())
+    assert largest(force(meeting, x) - f) == 0.0
+    assert largest(K - K.T) <= 1e-14 * largest(K)
+    assert np.linalg.eigvalsh(0.5 * (whole + whole.T))[-1] > 1e-2 * largest(K)
+    assert np.linalg.eigvalsh(0.5 * (K + K.T))[-1] <= 1e-12 * largest(K)
+    meeting.begin(1.0)
+    assert largest(dense(meeting.gradient()) - whole) == 0.0
+
+
+@every_kind
 @every_law
 def test_rods_side_by_side_carry_the_law(kind, law):
     """A line load q is met at the gap g_0 − q/ε_N of a penalty, whatever the mesh."""

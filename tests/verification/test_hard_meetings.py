@@ -58,6 +58,23 @@ def test_steps_lost_where_rods_meet_are_halved_before_all_else_is_tried(name, mo
     assert row.cuts > 0
 
 
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("name", ["within-5-1e8", "within-15-1e6"])
+def test_rods_posed_inside_one_another_part_at_once(name, model):
+    """Forces of so deep a start, which turn with normals, push rods anywhere: 33 to 128 iterations a step and cuts."""
+    row = hard_contact(BY_NAME[name], model, None)
+    assert (row.outcome, row.holds, row.cuts) == ("converged", True, 0)
+
+
+@pytest.mark.parametrize("scheme", [ImplicitEuler(), Midpoint()])
+@pytest.mark.parametrize("name", ["shot-8-5", "onto-the-floor"])
+def test_steps_that_get_nowhere_are_given_up_early(name, scheme):
+    """Rods that part and meet again, or part on the far side: twelve iterations of each took 13 to 16 a step."""
+    row = hard_contact(BY_NAME[name], "continuum", scheme)
+    assert (row.outcome, row.holds) == ("converged", True)
+    assert row.cuts > 0
+
+
 def test_a_crossing_is_as_deep_as_its_lens_says():
     """Of straight rods that cross at right angles; this one crosses at 1.2 rad, over 1/sin of that length."""
     lens, h = Lens(1e6, 2e-5), 1e-9

@@ -57,6 +57,7 @@ class Meeting:
         changed: Whether other points touched, stuck or slid in the last answer than in the one before.
         forced: Whether any was kept from sliding back in it, which no equilibrium does.
         stale: Whether pairs of cells that may touch were looked for anew in it.
+        steady: Whether derivatives leave out that normals turn, until the next `begin`.
     """
 
     def __init__(
@@ -119,7 +120,7 @@ class Meeting:
 
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
-        self._law, self._ε_T, self._t = self.contact.law, self._stiffness, t
+        self._law, self._ε_T, self._t, self.steady = self.contact.law, self._stiffness, t, False
         self._slid = np.zeros(0, dtype=np.intp), np.zeros((0, 3))
 
     def soften(self, by: float) -> None:
@@ -176,6 +177,8 @@ class Meeting:
     def gradient(self) -> Coupling:
         """Derivatives of the last answer, the intervals of contact kept."""
         pressed, cell = self._pressed, self._spans.cell
+        if self.steady:
+            pressed = replace(pressed, p=np.zeros_like(pressed.p))
         cells = (cell[-1] + 1) * cell[pressed.a] + cell[pressed.b]
         other = np.diff(cells, prepend=-1) != 0
         first, pair = np.flatnonzero(other), np.cumsum(other) - 1
