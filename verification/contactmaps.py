@@ -90,7 +90,7 @@ class ContactCell:
             as went in, or more.
         swing: Of the resultant over its mean in the last third; NaN where it failed, as what follows.
         flips: Most changes of a node there.
-        crept: Longest way along the floor there [m].
+        crept: Longest way of a node along the floor there, its swing apart [m].
         pressed: Resultant along the normal over the load.
         made: Most energy that the steps had made, over all that went in.
         iterations: Newton iterations a step, failed attempts included.
@@ -227,8 +227,9 @@ def rest(result: Result) -> tuple[float, int, float]:
     """How far from rest the last third is.
 
     Returns:
-        Swing of the resultant along the normal over its mean, most changes of state of a node, longest way of a node
-        that touches along the floor [m].
+        Swing of the resultant along the normal over its mean, most changes of state of a node, longest way along the
+        floor by which a node that touches drifts [m]: that of the straight line through its places, as nodes on springs
+        that swing to and fro stay where they are.
     """
     rod = result.contacts[0].rods[0]
     assert rod is not None
@@ -237,6 +238,6 @@ def rest(result: Result) -> tuple[float, int, float]:
     swing = float(np.ptp(force) / max(abs(float(force.mean())), np.finfo(float).tiny))
     flips = int((state[1:] != state[:-1]).sum(axis=0).max(initial=0))
     touching = (state > 0).all(axis=0)
-    at = result.rods[0].r[late][:, :, :2][:, touching]
-    ways = np.linalg.norm(at - at[:1], axis=2)
-    return swing, flips, float(ways.max(initial=0.0))
+    at, t = result.rods[0].r[late][:, :, :2][:, touching], result.t[late]
+    rates = np.polyfit(t - t[0], at.reshape(len(t), -1), 1)[0].reshape(-1, 2)
+    return swing, flips, float((t[-1] - t[0]) * np.linalg.norm(rates, axis=1).max(initial=0.0))
