@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg.lapack import dgbsv, dgbtrf, dgbtrs
 
+from discrete.rows import BLOCK
 from discrete.singly import solved
 from discrete.unknowns import AXIAL, N_ELEMENT, N_NODE, X
 
@@ -112,10 +113,9 @@ class BandedSystem:
 
     def _fill(self, tangent: Array) -> None:
         """Write the scaled matrix into the band."""
-        scaled = tangent * self.scale_elements
         self._band.fill(0.0)
         for window, elements in self._disjoint:
-            self._blocks[window] += scaled[elements]
+            self._blocks[window] += tangent[elements] * self.scale_elements[elements]
         self._band[self._lines] = 0.0
         self._band[_DIAGONAL, self.held] = 1.0
 
@@ -147,14 +147,17 @@ class Inverse:
 
 
 def _alternating(n_nodes: int, node_i: Indices) -> tuple[tuple[slice | Indices, slice | Indices], ...]:
-    """Elements in two groups that share no node within a group, as (windows, elements).
+    """Elements in groups that share no node within a group, as (windows, elements), each few enough for a block.
 
     A single rod is addressed by slices, which NumPy adds in place.
     """
     if len(node_i) == n_nodes - 1:
-        return tuple((slice(k, None, 2), slice(k, None, 2)) for k in (0, 1))
+        starts = range(0, len(node_i), 2 * BLOCK)
+        every = [slice(first + k, first + 2 * BLOCK, 2) for first in starts for k in (0, 1)]
+        return tuple((one, one) for one in every)
     groups = (np.flatnonzero(node_i % 2 == k) for k in (0, 1))
-    return tuple((node_i[group], group) for group in groups)
+    parts = (group[first : first + BLOCK] for group in groups for first in range(0, len(group), BLOCK))
+    return tuple((node_i[part], part) for part in parts)
 
 
 def scatter(force: Array, node_i: Indices, n_nodes: int) -> Array:

@@ -14,7 +14,7 @@ import numpy as np
 
 from discrete.endforces import conjugate, deformed, in_element, in_space
 from discrete.endtangents import end_tangents
-from discrete.rows import cross, dot, of_vectors
+from discrete.rows import BLOCK, cross, dot, of_vectors
 from discrete.unknowns import AXIAL, N_ELEMENT
 
 if TYPE_CHECKING:
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 __all__ = ["ChordElement"]
 
-# Elements at once.
-BLOCK = 1024
 # Rotations in [k*] component by component, and for each both ends.
 _ROTATIONS = np.array([3, 9, 4, 10, 5, 11])
 

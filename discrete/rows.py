@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["cross", "dot", "of_frames", "of_vectors", "rotated", "turn", "turn_back", "turned"]
+__all__ = ["BLOCK", "cross", "dot", "of_frames", "of_vectors", "rotated", "turn", "turn_back", "turned"]
 
+# Elements at once, of which what comes in between stays in the processor's memory.
+BLOCK = 1024
 # With the first two components repeated behind the last, every component finds its next two behind it.
 _AROUND = np.array([0, 1, 2, 0, 1])
 

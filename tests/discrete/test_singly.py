@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from discrete import assembly
 from discrete.assembly import BandedSystem
 from discrete.rotation import exp
 from discrete.singly import resisted, turned_back, turned_blocks, turned_on
@@ -33,6 +35,18 @@ def test_one_system_is_solved_as_several_are(seed: int, n: int, rods: int) -> No
     several, one = inverse.times(right[:, None])[:, 0], inverse.single(right)
     residual = np.abs(one - several)
     assert residual.max() <= ROUND_OFF * np.abs(several).max() * np.abs(inverse.left).max() / np.abs(inverse.left).min()
+
+
+@pytest.mark.parametrize("rods", [1, 3])
+def test_a_system_filled_in_blocks_is_the_same(rods, monkeypatch):
+    rng, n = np.random.default_rng(rods), 11
+    node_i = np.concatenate([a + np.arange(n) for a in np.arange(rods) * (n + 1)])
+    l, held = rng.uniform(0.01, 0.1, len(node_i)), np.arange(6)
+    tangent, right = rng.standard_normal((len(node_i), N_ELEMENT, N_ELEMENT)), rng.standard_normal(rods * (n + 1) * 7)
+    whole = BandedSystem(rods * (n + 1), node_i, l, held).solve(tangent, right.copy())
+    monkeypatch.setattr(assembly, "BLOCK", 2)
+    found = BandedSystem(rods * (n + 1), node_i, l, held).solve(tangent, right.copy())
+    np.testing.assert_array_equal(found, whole)
 
 
 @given(SEEDS)
