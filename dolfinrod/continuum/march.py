@@ -162,7 +162,7 @@ class March:
                 outcome = replace(outcome, converged=False, reason=PASSED)
             if outcome.converged:
                 problem.end_step()
-                if self.even or pace.allows(problem.local_error(), tried):
+                if pace.allows(0.0 if self.even else problem.local_error(), tried):
                     return (target if n <= 1.0 and not cuts else t + tried), outcome, cuts
                 tried = min(pace.length, tried)
             else:

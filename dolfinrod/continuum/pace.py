@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 __all__ = ["Pace"]
 
@@ -16,15 +17,21 @@ WORTH = 1.2
 class Pace:
     """Length of the next step, as long as the error of each stays within a tolerance.
 
+    Steps of fixed length that are lost grow again as they have shrunk, to twice the one before: what a step met does
+    not end with it.
+
     Args:
         length: Of the next step [s].
         order: Power of the step with which the error of one step falls.
-        tol: Error allowed in a step, in L; None: the length is fixed.
+        tol: Error allowed in a step, in L; None: steps are as long as the first one where none is lost.
     """
 
     length: float
     order: int
     tol: float | None = None
+
+    def __post_init__(self) -> None:
+        self._longest = self.length if self.tol is None else inf
 
     def allows(self, error: float, tried: float) -> bool:
         """Whether a step was accurate enough; the next one is chosen by its error.
@@ -34,6 +41,7 @@ class Pace:
             tried: Its length [s].
         """
         if self.tol is None:
+            self.length = min(LONGER * tried, self._longest)
             return True
         wanted = SAFETY * (self.tol / error) ** (1.0 / self.order) if error > 0.0 else LONGER
         if not 1.0 <= wanted < WORTH:
@@ -41,6 +49,5 @@ class Pace:
         return error <= self.tol
 
     def fail(self, tried: float) -> None:
-        """A step that found no state: half of it comes next, if steps are free."""
-        if self.tol is not None:
-            self.length = tried / 2.0
+        """A step that found no state: half of it comes next."""
+        self.length = tried / 2.0

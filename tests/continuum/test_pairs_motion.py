@@ -151,3 +151,16 @@ def test_rods_are_moved_alike_by_iteration_and_by_factors_of_all(monkeypatch):
     factorised = dr.solve(scene, **MESH)
     assert max(iterated.meetings[0].total(i) for i in range(len(iterated.t))) > 1.0
     assert_same(iterated, factorised, 1e-9)
+
+
+@SCHEMES
+def test_steps_grow_again_as_they_have_shrunk(scheme):
+    """Rods thrown at each other, over two diameters a step: what a step met does not end with it."""
+    dt = 0.1
+    scene = replace(bundle(scheme, n=2), motion=dr.Dynamic(5 * dt, dt=dt, scheme=scheme))
+    result = dr.solve(scene, **MESH)
+    steps = np.diff(result.t)
+    assert sum(row.cuts for row in result.log) > 0
+    assert steps.min() < 0.3 * dt
+    assert (steps[1:] <= 2.0 * steps[:-1] * (1.0 + 1e-9)).all()
+    assert steps[-1] > 0.5 * dt
