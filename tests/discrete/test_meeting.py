@@ -96,7 +96,7 @@ def test_forces_do_not_depend_on_who_is_named_first():
     for k in (0, 1):
         assert one.rods[k].r[-1] == pytest.approx(other.rods[1 - k].r[-1], rel=0, abs=1e-12 * LENGTH)
     a, b = one.meetings[0].force(-1, 0, 1), other.meetings[0].force(-1, 1, 0)
-    assert a == pytest.approx(b, rel=0, abs=1e-10 * largest(a))
+    assert a == pytest.approx(b, rel=0, abs=1e-12 * largest(a))
 
 
 def stacked(law: object, friction: Coulomb | None = None) -> Scene:
