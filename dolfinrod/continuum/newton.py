@@ -120,10 +120,10 @@ class Newton:
         iterations = self.snes.getIterationNumber()
         if reason == SINGULAR:
             self.reopen()
-            return Outcome(False, iterations, np.nan, words(SINGULAR))
+            return Outcome(False, iterations, np.nan, words(SINGULAR, iterations))
         # The last residual was that of the solution, and left the problem there with multipliers in balance.
         residual = float(self.snes.getFunctionNorm())
-        return Outcome(reason > 0, iterations, residual, words(reason), self._watch.strayed())
+        return Outcome(reason > 0, iterations, residual, words(reason, iterations), self._watch.strayed())
 
     @property
     def set_out(self) -> NDArray[np.float64] | None:

@@ -15,7 +15,7 @@ LOST = PETSc.SNES.ConvergedReason.DIVERGED_DTOL
 SINGULAR = PETSc.SNES.ConvergedReason.DIVERGED_LINEAR_SOLVE
 REASONS = {
     PETSc.SNES.ConvergedReason.DIVERGED_FNORM_NAN: "the residual is not a number",
-    PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: f"Newton's method did not settle in {MOST_ITERATIONS} iterations",
+    PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT: "Newton's method did not settle in {} iterations",
     LOST: "the sections turned to and fro and did not settle",
     SINGULAR: ("the tangent is singular: something is free to move, or a load is critical"),
     PETSc.SNES.ConvergedReason.DIVERGED_FUNCTION_DOMAIN: "the residual is not a number",
@@ -41,6 +41,8 @@ class Outcome:
     strayed: bool = False
 
 
-def words(reason: int) -> str:
-    """A reason of SNES for which it stopped."""
-    return REASONS.get(reason, f"PETSc reports reason {reason}") if reason < 0 else "converged"
+def words(reason: int, iterations: int) -> str:
+    """A reason of SNES for which it stopped after so many iterations."""
+    if reason > 0:
+        return "converged"
+    return REASONS.get(reason, f"PETSc reports reason {reason}").format(iterations)

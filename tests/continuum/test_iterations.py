@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from petsc4py import PETSc
+
 import pytest
 
 import dolfinrod as dr
+from dolfinrod.continuum.outcome import words
 from tests.scenes import KIRCHHOFF, bend, both_kinematics, followed, rolled_up, round_section, tip_loaded
 
 SECTIONS = {"L/d = 20": round_section(20), "L/d = 200": round_section(200), "L/d = 2000": round_section(2000)}
@@ -56,3 +59,8 @@ def test_follower_tip_force(section, kinematics):
 @pytest.mark.parametrize(("elements", "degree"), [(4, 4), (8, 2), (8, 3), (8, 4), (16, 4)])
 def test_bend(elements, degree):
     assert iterations_in_one_step(bend(600.0), None, elements=elements, degree=degree) <= 10
+
+
+def test_a_failure_says_after_how_many_iterations():
+    assert words(PETSc.SNES.ConvergedReason.DIVERGED_MAX_IT, 8) == "Newton's method did not settle in 8 iterations"
+    assert words(PETSc.SNES.ConvergedReason.CONVERGED_SNORM_RELATIVE, 8) == "converged"
