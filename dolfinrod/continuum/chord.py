@@ -75,6 +75,7 @@ class Chord(Newton):
 
     def _tangent(self, snes: PETSc.SNES, X: PETSc.Vec, A: PETSc.Mat, P: PETSc.Mat) -> None:
         walls = self.problem.walls
+        # Of points that have just come to touch, stick or slide an old tangent knows nothing.
         if walls is not None and np.isfinite(self._size) and walls.changed:
             self._serves = False
         self._is_fresh = not self._serves
