@@ -114,6 +114,24 @@ def test_who_is_ahead_is_the_ratio_of_the_quickest_that_are_exact_enough():
     assert "others are ahead on P3 to 0.001 (B, 2.0 ×)" in words
 
 
+def test_an_aim_that_is_missed_says_what_costs_the_time():
+    """More steps, or dearer ones."""
+
+    def swung(name: str, ours: bool, steps: int, seconds: float) -> Contender:
+        one = ran(name, ours, (1e-4, seconds), problem="swing")
+        (attempt,) = one.attempts
+        return replace(one, attempts=(replace(attempt, found=replace(attempt.found, steps=steps)),))
+
+    dear, many = swung("A", True, 160, 0.32), swung("A", True, 16000, 0.32)
+    other = swung("B", False, 200, 0.01)
+    (aim,), (steps,) = (aims((one, other)) for one in (dear, many))
+    assert not aim.holds
+    assert aim.profile == "steps: 160 of 2 ms against 200 of 0.05 ms, so what a step costs makes the difference"
+    assert steps.profile.endswith("so how many steps it takes makes the difference")
+    assert aim.profile in peers.asked([aim])
+    assert "steps:" not in peers.asked([replace(aim, ahead=1.0)])
+
+
 def test_plane_elements_are_not_compared_in_space():
     found = (ran("A", True, (1e-4, 2.0)), ran("B", False, (1e-4, 1.0), space=False), ran("C", False, (1e-4, 8.0)))
     assert standing(found, "P3", 1e-3, "in space").ahead == 4.0

@@ -109,12 +109,14 @@ class Aim:
         least: By how many times ours should be ahead.
         ahead: By how many times they are; infinite where the others do not get there.
         why: Who was looked at.
+        profile: What either side's steps cost; empty where a solver does not say how many it took.
     """
 
     words: str
     least: float
     ahead: float
     why: str
+    profile: str = ""
 
     @property
     def holds(self) -> bool:
@@ -168,7 +170,18 @@ def _aim(
     s = standing(found, problem, target, where, chosen)
     sides = " against ".join(_named(side) for side in (s.ours, s.theirs))
     among = ", ".join(filter(None, (where, words)))
-    return Aim(f"{named(problem)} to {target:g}, {among}", least, s.ahead, sides)
+    return Aim(f"{named(problem)} to {target:g}, {among}", least, s.ahead, sides, _profile(s))
+
+
+def _profile(s: Standing) -> str:
+    """Whether steps or what each costs keeps ours behind, such as "steps: 160 of 1.9 ms against 200 of 0.05 ms, …"."""
+    sides = [side[1].found for side in (s.ours, s.theirs) if side is not None]
+    taken = [(one.steps, 1e3 * one.solve / one.steps) for one in sides if one is not None and one.steps]
+    if len(taken) < 2:
+        return ""
+    (n, ms), (others, theirs) = taken
+    reason = "what a step costs" if n / others < ms / theirs else "how many steps it takes"
+    return f"steps: {n} of {ms:.2g} ms against {others} of {theirs:.2g} ms, so {reason} makes the difference"
 
 
 def _named(side: tuple[Contender, Attempt] | None) -> str:

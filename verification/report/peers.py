@@ -135,7 +135,8 @@ def asked(rows: Sequence[Aim]) -> str:
     for a in rows:
         ahead = times(a.ahead) if isfinite(a.ahead) else "alone"
         lines.append((a.words, a.why, ahead, f"≥ {race.figures(a.least)} ×", Mark(a.holds, severity="slow")))
-    return table(columns, lines)
+    missed = [f"{a.words}: {a.profile}." for a in rows if not a.holds and a.profile]
+    return table(columns, lines) + "".join(f"<p>{escape(words)}</p>" for words in missed)
 
 
 def at_once(found: Sequence[Contender]) -> str:
