@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, log2
 
 __all__ = ["Pace"]
 
@@ -51,3 +51,7 @@ class Pace:
     def fail(self, tried: float) -> None:
         """A step that found no state: half of it comes next."""
         self.length = tried / 2.0
+
+    def halved(self, tried: float) -> int:
+        """How often a step of fixed length is halved already: as it grows slowly again, more would never end."""
+        return max(0, round(log2(self._longest / tried))) if self.tol is None else 0

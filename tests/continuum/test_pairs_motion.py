@@ -11,6 +11,7 @@ import pytest
 
 import dolfinrod as dr
 from dolfinrod.checkpoint import checkpoint as clock
+from dolfinrod.continuum.pace import Pace
 from tests.scenes import interpolated, largest
 
 RADIUS = 0.01
@@ -164,3 +165,14 @@ def test_steps_grow_again_as_they_have_shrunk(scheme):
     assert steps.min() < 0.3 * dt
     assert (steps[1:] <= 2.0 * steps[:-1] * (1.0 + 1e-9)).all()
     assert steps[-1] > 0.5 * dt
+
+
+def test_steps_that_were_lost_are_not_halved_for_ever():
+    """Where they grow again slowly, halves of what was asked for count, not those of the last step."""
+    pace = Pace(1.0, 2)
+    for tried in (1.0, 0.5, 0.25):
+        pace.fail(tried)
+    assert (pace.length, pace.halved(pace.length)) == (0.125, 3)
+    assert pace.allows(0.0, 0.125)
+    assert (pace.length, pace.halved(pace.length)) == (0.25, 2)
+    assert Pace(1.0, 2, 1e-3).halved(0.125) == 0
