@@ -153,7 +153,7 @@ class March:
         start, motion = self.mark.x, self.mark.motion
         n = np.ceil((target - t) / pace.length * (1.0 - SAME))
         tried = (target - t) / max(n, 1.0)
-        for cuts in range(max(1, MOST_CUTS + 1 - pace.halved(tried))):
+        for cuts in range(max(1, MOST_CUTS + 1 - pace.halved(tried, target - t))):
             problem.begin_step(t, tried)
             problem.x[:] = self._predictor.guess(t + tried)
             outcome = self.newton.solve()

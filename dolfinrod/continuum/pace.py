@@ -41,7 +41,8 @@ class Pace:
             tried: Its length [s].
         """
         if self.tol is None:
-            self.length = min(LONGER * tried, self._longest)
+            # A step cut short by the time it leads to says nothing against a longer one.
+            self.length = min(max(self.length, LONGER * tried), self._longest)
             return True
         wanted = SAFETY * (self.tol / error) ** (1.0 / self.order) if error > 0.0 else LONGER
         if not 1.0 <= wanted < WORTH:
@@ -52,6 +53,11 @@ class Pace:
         """A step that found no state: half of it comes next."""
         self.length = tried / 2.0
 
-    def halved(self, tried: float) -> int:
-        """How often a step of fixed length is halved already: as it grows slowly again, more would never end."""
-        return max(0, round(log2(self._longest / tried))) if self.tol is None else 0
+    def halved(self, tried: float, left: float) -> int:
+        """How often a step of fixed length is halved already: as it grows slowly again, more would never end.
+
+        Args:
+            tried: Its length [s].
+            left: Time to where it leads, with the steps that follow [s].
+        """
+        return max(0, round(log2(min(self._longest, left) / tried))) if self.tol is None else 0

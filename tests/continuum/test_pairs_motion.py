@@ -172,7 +172,19 @@ def test_steps_that_were_lost_are_not_halved_for_ever():
     pace = Pace(1.0, 2)
     for tried in (1.0, 0.5, 0.25):
         pace.fail(tried)
-    assert (pace.length, pace.halved(pace.length)) == (0.125, 3)
+    assert (pace.length, pace.halved(pace.length, 10.0)) == (0.125, 3)
     assert pace.allows(0.0, 0.125)
-    assert (pace.length, pace.halved(pace.length)) == (0.25, 2)
-    assert Pace(1.0, 2, 1e-3).halved(0.125) == 0
+    assert (pace.length, pace.halved(pace.length, 10.0)) == (0.25, 2)
+    assert Pace(1.0, 2, 1e-3).halved(0.125, 10.0) == 0
+
+
+def test_steps_that_only_lead_to_a_time_close_by_say_nothing_of_the_next():
+    """Outputs and kinks of histories between steps: without a loss, all is as if they were not there."""
+    pace = Pace(1.0, 2)
+    assert pace.allows(0.0, 0.01)
+    assert pace.length == 1.0
+    assert pace.halved(0.01, 0.01) == 0
+    scene = bundle(dr.ImplicitEuler(), n=2)
+    motion = dr.Dynamic(1.0, dt=0.25, output=(0.01, 1.0))
+    result = dr.solve(replace(scene, contacts=(), motion=motion), **MESH)
+    assert np.allclose([row.t for row in result.log], [0.01, 0.25, 0.5, 0.75, 1.0])
