@@ -15,7 +15,7 @@ __all__ = ["SEEDS", "SETTINGS", "GrooveEnsemble", "Setting", "gathered", "settin
 SEEDS, FEW = 10, 3
 # Of small bundles: fibres, elements by which theirs are longer, and the time they take to lie in the groove [s].
 SMALL, COARSER, GATHERED = 3, 4, 1.5e-3
-# Bundles of a quick run, and in a report of settings that only ten tell from the lateral groove; not fewer are judged.
+# Not fewer are judged.
 QUICK_SEEDS = 2
 LATERAL, INTERMEDIATE = Scenario("lateral"), Scenario("intermediate")
 # As loose as fibres can be: no air, no friction, and a tension of 2 mN.
@@ -45,8 +45,7 @@ class Setting:
 
     def small(self) -> Setting:
         """The same for a report, which is to take less than half an hour."""
-        seeds = FEW if self.quick or self.seeds <= FEW else QUICK_SEEDS
-        return replace(self, scenario=small(self.scenario), seeds=seeds)
+        return replace(self, scenario=small(self.scenario), seeds=min(self.seeds, FEW))
 
     def hurried(self) -> Setting:
         """The same for a quick run: a blink of two fibres and few elements, which shows that it runs, no more."""

@@ -30,7 +30,6 @@ class RoughOther:
         package: As it is installed.
         sweeps: Elements and steps a second, one pair a setting, by what is posed; the quick run takes the first.
         without: Why it does not take part, by what is posed.
-        repeats: Solves of each setting, of which the quickest counts; the first one warms up.
     """
 
     taker: Taker
@@ -38,7 +37,6 @@ class RoughOther:
     package: str = ""
     sweeps: Mapping[str, tuple[tuple[int, int], ...]] = field(default_factory=dict)
     without: Mapping[str, str] = field(default_factory=dict)
-    repeats: int = 2
 
 
 def unable(name: str, plane: str, capstan: str) -> RoughOther:
@@ -59,8 +57,6 @@ ROUGH_OTHERS = (
         "mujocorough",
         "mujoco",
         {PLANE: ((4, 1000), (4, 200), (4, 4000), (4, 16000)), CAPSTAN: ((8, 1000), (16, 1000), (32, 1000))},
-        # Compiled ahead: nothing to warm up.
-        repeats=1,
     ),
     unable(
         "EXUDYN",
@@ -106,7 +102,7 @@ def measured(other: RoughOther, problem: RoughProblem, environment: Environment,
         "pose": problem.pose,
         "problem": problem.told,
         "settings": [{"elements": elements, "step": 1.0 / steps}],
-        "repeats": other.repeats,
+        "repeats": 2,
         "budget": BUDGET,
     }
     answer = ask(environment.python, question)
