@@ -86,11 +86,11 @@ class ContactCell:
         dt: Step [s].
         outcome: "converged"; "creeps": comes to rest but along the floor; "chatters": the resultant swings by more than
             1 % of its mean in the last third, or a node changes between open, sticking and sliding more than once
-            there; "failed": refused, or more steps failed than were asked for, or the steps made half as much energy
+            there, or swings along the floor about anchors that stay where they are; "failed": refused, or more steps failed than were asked for, or the steps made half as much energy
             as went in, or more.
         swing: Of the resultant over its mean in the last third; NaN where it failed, as what follows.
         flips: Most changes of a node there.
-        crept: Longest way of a node along the floor there, its swing apart [m].
+        crept: Longest way along the floor there [m].
         pressed: Resultant along the normal over the load.
         made: Most energy that the steps had made, over all that went in.
         iterations: Newton iterations a step, failed attempts included.
@@ -204,32 +204,34 @@ def cell(scheme: ContactScheme, elements: int, eps_N: float, dt: float) -> Conta
         reason = CRAWLS if patience.over else failed.reason
         return found("failed", np.nan, 0, np.nan, np.nan, np.nan, np.nan, np.nan, reason)
     *_, made = audit(result.energy)
-    swing, flips, crept = rest(result)
+    swing, flips, crept, slipped = rest(result)
     pressed = float(result.contacts[0].force[-1, 2] / (PRESS * LENGTH))
     taken = result.statistics.newton_iterations / len(result.log)
     ms = 1e3 * result.statistics.seconds_solve / len(result.log)
-    words, reason = outcome(swing, flips, crept), ""
+    held = isinstance(scheme.friction, Coulomb) and slipped == 0.0
+    words, reason = outcome(swing, flips, crept, held=held), ""
     if not made <= GAIN:
         words, reason = "failed", f"the steps made {made:.2g} times the energy that went in"
     return found(words, swing, flips, crept, pressed, made, taken, ms, reason)
 
 
-def outcome(swing: float, flips: int, crept: float) -> str:
-    """Of a run that reached the end."""
+def outcome(swing: float, flips: int, crept: float, *, held: bool) -> str:
+    """Of a run that reached the end; held: by anchors of friction that have not moved."""
     if not swing <= SETTLED or flips > 1:
         return "chatters"
     radius = Section.ramie().radius
     assert radius is not None
-    return "creeps" if crept > CREEP * radius else "converged"
+    if crept <= CREEP * radius:
+        return "converged"
+    return "chatters" if held else "creeps"
 
 
-def rest(result: Result) -> tuple[float, int, float]:
+def rest(result: Result) -> tuple[float, int, float, float]:
     """How far from rest the last third is.
 
     Returns:
-        Swing of the resultant along the normal over its mean, most changes of state of a node, longest way along the
-        floor by which a node that touches drifts [m]: that of the straight line through its places, as nodes on springs
-        that swing to and fro stay where they are.
+        Swing of the resultant along the normal over its mean, most changes of state of a node, longest way of a node
+        that touches along the floor [m], and the longest of its anchors [m].
     """
     rod = result.contacts[0].rods[0]
     assert rod is not None
@@ -238,6 +240,7 @@ def rest(result: Result) -> tuple[float, int, float]:
     swing = float(np.ptp(force) / max(abs(float(force.mean())), np.finfo(float).tiny))
     flips = int((state[1:] != state[:-1]).sum(axis=0).max(initial=0))
     touching = (state > 0).all(axis=0)
-    at, t = result.rods[0].r[late][:, :, :2][:, touching], result.t[late]
-    rates = np.polyfit(t - t[0], at.reshape(len(t), -1), 1)[0].reshape(-1, 2)
-    return swing, flips, float((t[-1] - t[0]) * np.linalg.norm(rates, axis=1).max(initial=0.0))
+    at = result.rods[0].r[late][:, :, :2][:, touching]
+    ways = np.linalg.norm(at - at[:1], axis=2)
+    slipped = np.ptp(rod.slip[late][:, touching], axis=0)
+    return swing, flips, float(ways.max(initial=0.0)), float(slipped.max(initial=0.0))
