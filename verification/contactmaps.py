@@ -84,10 +84,10 @@ class ContactCell:
         l: Length of the elements [m].
         eps_N: Of the wall [N/m²].
         dt: Step [s].
-        outcome: "converged"; "creeps": comes to rest but along the floor; "chatters": the resultant swings by more than
-            1 % of its mean in the last third, or a node changes between open, sticking and sliding more than once
-            there, or swings along the floor about anchors that stay where they are; "failed": refused, or more steps failed than were asked for, or the steps made half as much energy
-            as went in, or more.
+        outcome: "converged"; "creeps": comes to rest but along the floor; "chatters": the resultant swings by more
+            than 1 % of its mean in the last third, or a node changes between open, sticking and sliding more than
+            once there, or swings along the floor about anchors that stay where they are; "failed": refused, or more
+            steps failed than were asked for, or the steps made half as much energy as went in, or more.
         swing: Of the resultant over its mean in the last third; NaN where it failed, as what follows.
         flips: Most changes of a node there.
         crept: Longest way along the floor there [m].
