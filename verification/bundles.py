@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import log
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from verification.bundlescene import LENGTH
 from verification.processes import said
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
 __all__ = [
     "FEW",
@@ -23,6 +23,7 @@ __all__ = [
     "BundleCost",
     "BundleRanks",
     "BundleStudy",
+    "compared",
     "measured",
     "on_ranks",
 ]
@@ -177,7 +178,12 @@ def on_ranks(who: Bundle, n: int, steps: int) -> BundleRanks:
     """One bundle on one rank and on two."""
     words = (who.model, who.elements, who.degree, n, steps)
     one, two = (said(RUN, words, ranks) for ranks in (1, 2))
+    return compared(who, n, one, two, "clock")
+
+
+def compared(who: Bundle, n: int, one: Mapping[str, Any], two: Mapping[str, Any], clock: str) -> BundleRanks:
+    """What a program said of one bundle on one rank and on two; seconds by the clock under a name."""
     if failure := one.get("failure", "") or two.get("failure", ""):
         return BundleRanks(n, who.mesh, 0, np.nan, (np.nan, np.nan), failure)
     apart = float(np.abs(np.array(one["x"]) - np.array(two["x"])).max() / LENGTH)
-    return BundleRanks(n, who.mesh, one["steps"], apart, (one["clock"], two["clock"]))
+    return BundleRanks(n, who.mesh, one["steps"], apart, (one[clock], two[clock]))

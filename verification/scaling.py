@@ -7,6 +7,7 @@ from math import ceil, log2
 
 import numpy as np
 
+from verification.bundles import Bundle, BundleRanks, compared
 from verification.processes import said
 
 __all__ = ["ASKED", "RANKS", "EnsembleScaling", "Scaling", "ensembles", "scaled"]
@@ -129,14 +130,16 @@ class EnsembleScaling:
         return not self.failure
 
 
-def scaled(fibres: int, steps: int) -> Scaling:
-    """A bundle on one rank and on two, and half of it on one."""
-    one, two, half = (said(RUN, (n, steps), ranks) for n, ranks in ((fibres, 1), (fibres, 2), (fibres // 2, 1)))
+def scaled(who: Bundle, fibres: int, steps: int) -> tuple[Scaling, BundleRanks]:
+    """A bundle on one rank and on two, and half of it on one: time, and where it ends on one and on two."""
+    mesh = who.elements, who.degree
+    one, two, half = (said(RUN, (*mesh, n, steps), ranks) for n, ranks in ((fibres, 1), (fibres, 2), (fibres // 2, 1)))
+    same = compared(who, fibres, one, two, "seconds")
     failure = next((told["failure"] for told in (one, two, half) if "failure" in told), "")
     if failure:
         two = dict.fromkeys(("seconds", "talk", "calls", "size", "latency", "rate"), float("nan"))
         one = half = two
-    return Scaling(
+    scaling = Scaling(
         fibres=fibres,
         steps=steps,
         one=one["seconds"] / steps,
@@ -149,6 +152,7 @@ def scaled(fibres: int, steps: int) -> Scaling:
         rate=two["rate"],
         failure=failure,
     )
+    return scaling, same
 
 
 def ensembles(runs: int, steps: int) -> EnsembleScaling:

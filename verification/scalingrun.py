@@ -1,6 +1,6 @@
-"""A bundle on the ranks that mpirun started: time of its steps, and of what ranks tell one another, as JSON.
+"""A bundle on the ranks that mpirun started: where it ends, time of its steps, of what ranks tell one another; JSON.
 
-python -m verification.scalingrun FIBRES STEPS
+python -m verification.scalingrun ELEMENTS DEGREE FIBRES STEPS
 """
 
 from __future__ import annotations
@@ -17,15 +17,16 @@ import numpy as np
 from dolfinrod.continuum import solve
 from dolfinrod.continuum.everywhere import Everywhere
 from dolfinrod.scene import Spatial
+from verification.bundles import Bundle
 from verification.bundlescene import bundle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ELEMENTS", "main"]
+    from dolfinrod.result import Result
 
-# Of a fibre, cubic.
-ELEMENTS, DEGREE = 20, 3
+__all__ = ["main"]
+
 # Messages by which a latency and a rate are measured, and how often each is sent.
 SMALL, LARGE, TIMES = 8, 1 << 20, 20
 
@@ -58,19 +59,22 @@ class Talk:
         return timed
 
 
-def main(fibres: int, steps: int) -> None:
+def main(elements: int, degree: int, fibres: int, steps: int) -> None:
     """Solve twice, the first for buffers and kernels alone, and print on the first rank."""
     comm = MPI.COMM_WORLD
-    solved(fibres, 1)
+    who = Bundle("continuum", elements, degree)
+    solved(who, fibres, 1)
     talk = Talk()
     for method in ("gathered", "summed"):
         talk.listen(method)
     comm.Barrier()
     began = perf_counter()
-    solved(fibres, steps)
+    result = solved(who, fibres, steps)
     seconds = comm.allreduce(perf_counter() - began, MPI.MAX)
     # Who waits least waits for nobody: what is left is the exchange itself.
     told = {
+        "steps": result.statistics.load_steps,
+        "x": [rod.r[-1].tolist() for rod in result.rods],
         "seconds": seconds,
         "talk": comm.allreduce(talk.seconds, MPI.MIN),
         "calls": talk.calls,
@@ -82,9 +86,9 @@ def main(fibres: int, steps: int) -> None:
         sys.stdout.write(json.dumps(told) + "\n")
 
 
-def solved(fibres: int, steps: int) -> None:
+def solved(who: Bundle, fibres: int, steps: int) -> Result:
     """The bundle, so many steps."""
-    solve(bundle(fibres, steps), elements=ELEMENTS, degree=DEGREE, kinematics=Spatial())
+    return solve(bundle(fibres, steps), elements=who.elements, degree=who.degree, kinematics=Spatial())
 
 
 def exchanged(comm: MPI.Intracomm, size: int) -> float:
@@ -99,4 +103,4 @@ def exchanged(comm: MPI.Intracomm, size: int) -> float:
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:3]))
+    main(*map(int, sys.argv[1:5]))

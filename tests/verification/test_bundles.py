@@ -107,7 +107,7 @@ def test_what_grows_too_fast_and_ranks_that_differ_are_missed_and_said():
 
 
 def test_chosen_like_a_family_or_one_by_one():
-    assert [unit.topic for unit in units((BUNDLES,), quick=False)] == ["bundle"] * 6
+    assert [unit.topic for unit in units((BUNDLES,), quick=False)] == ["bundle"] * 5
     assert [unit.topic for unit in units((BUNDLES,), quick=True)] == ["bundle"] * 2
     assert len(list(units(("bundles:discrete",), quick=False))) == 1
     parts = {"bundles:discrete", "bundles:continuum", "bundles:ranks", "bundles:scaling"}

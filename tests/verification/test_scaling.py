@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from verification.bundletrials import MODELS
 from verification.ledger import decode, encode
 from verification.plan import selected
 from verification.report.misses import sentence
@@ -72,8 +73,11 @@ def test_what_takes_hours_is_done_only_where_it_is_asked_for():
 @pytest.mark.slow
 @pytest.mark.serial
 def test_a_small_bundle_and_a_small_ensemble_run_on_one_rank_and_two():
-    bundle, ensemble = scaled(2, 1), ensembles(2, 2)
+    (bundle, same), ensemble = scaled(MODELS[-1], 2, 1), ensembles(2, 2)
     assert bundle.holds, bundle
+    assert same.holds, same
+    assert same.steps == 1
+    assert min(same.seconds) > 0.0
     assert min(bundle.one, bundle.two, bundle.half, bundle.calls, bundle.rate) > 0.0
     assert ensemble.holds, ensemble
     assert len(ensemble.each) == 2
