@@ -117,16 +117,17 @@ def test_solvers_run_on_one_thread_and_leave_nothing_behind(interpreter, tmp_pat
 
 def at_once() -> int:
     """How many of the others are asked for whole loads, and by a quick report."""
-    return sum(not other.relaxes for other in rodothers.ROD_OTHERS)
+    return sum(not others[0].relaxes for others in rodothers.together())
 
 
 def test_without_them_the_race_is_run_and_says_so(tmp_path, monkeypatch):
     assert installed(tmp_path) is None
     monkeypatch.setattr(race, "installed", lambda: None)
     units = list(race.units((race.PEERS,), quick=True))
-    found = [unit.work() for unit in units if "absent" in unit.parameters]
+    absent = [unit.work() for unit in units if "absent" in unit.parameters]
     sliding = len(rough.ROUGH) * len(ROUGH_OTHERS)
-    assert len(found) == len(others.OTHERS) + (1 + len(rods.QUICK)) * at_once() + sliding
+    assert len(absent) == len(others.OTHERS) + (1 + len(rods.QUICK)) * at_once() + sliding
+    found = [c for rows in absent for c in (rows if isinstance(rows, tuple) else (rows,))]
     assert all(c.absent == environment.ABSENT and not c.attempts for c in found)
     page = peers.contents((contender(True, (1e-4, 2.0)), *found))
     assert f"Nobody else took part: {environment.ABSENT}" in page
@@ -140,7 +141,7 @@ def test_what_was_absent_is_asked_again_once_it_is_there(monkeypatch, interprete
     monkeypatch.setattr(race, "installed", lambda: None)
     absent = parameters()
     monkeypatch.setattr(race, "installed", lambda: interpreter("exit"))
-    theirs = len(others.OTHERS) + len(rods.RODS) * len(rodothers.ROD_OTHERS) + at_once()
+    theirs = len(others.OTHERS) + len(rods.RODS) * len(rodothers.together()) + at_once()
     theirs += len(rough.ROUGH) * len(ROUGH_OTHERS)
     mine = sum(own.poses(rod) for own in rodours.ROD_OURS for rod in rods.RODS)
     assert len(absent - parameters()) == theirs

@@ -17,7 +17,7 @@ from verification.peers.contest import Attempt, Contender, Measured, Taker
 from verification.peers.conversation import Refused
 from verification.peers.environment import installed
 from verification.peers.onestep import LOADS, ONCE, largest
-from verification.peers.rodothers import LADDER, ROD_OTHERS, attempt, rod_others_measured
+from verification.peers.rodothers import LADDER, ROD_OTHERS, attempt, rod_others_measured, together
 from verification.peers.rodours import DISCRETE, ROD_OURS, measured, posed
 from verification.peers.rodshape import equal, nodes
 from verification.peers.standing import aims, standing, standings
@@ -160,14 +160,16 @@ def test_loads_in_one_step_count_up_to_the_first_that_fails():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("other", ROD_OTHERS, ids=lambda other: other.taker.name)
-def test_the_real_ones_solve_the_cantilever_where_they_are_installed(other):
+@pytest.mark.parametrize("others", together(), ids=lambda others: others[0].package)
+def test_the_real_ones_solve_the_cantilever_where_they_are_installed(others):
     """Within a hundredth of the length, a tenth where rods come to rest by chains of first order; or a reason."""
-    found = rod_others_measured(other, rods.RODS[0], installed(), quick=True)
-    refused = {a.refused for a in found.attempts}
-    if not found.absent and not any(other.needs and other.needs in words for words in refused):
-        assert refused == {""}
-        assert found.nearest < (1e-1 if other.relaxes else 1e-2)
+    contenders = rod_others_measured(others, rods.RODS[0], installed(), quick=True)
+    for other, found in zip(others, contenders, strict=True):
+        assert found.taker == other.taker
+        refused = {a.refused for a in found.attempts}
+        if not found.absent and not any(other.needs and other.needs in words for words in refused):
+            assert refused == {""}
+            assert found.nearest < (1e-1 if other.relaxes else 1e-2)
 
 
 def test_what_it_needs_is_said_where_it_is_not_installed():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from dolfinrod.result import NotConverged
 from dolfinrod.scene import Planar, Spatial
@@ -17,6 +17,8 @@ from verification.peers.rods import cantilever
 from verification.references.robustness import PEER_LOADS
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from verification.models import Model
     from verification.peers.rodothers import RodOther
     from verification.peers.rods import RodProblem
@@ -57,43 +59,44 @@ def largest(contender: Contender) -> float:
     return taken
 
 
-def others_at_once(other: RodOther, environment: Environment | None) -> Contender:
-    """Somebody else's element under every load.
+def others_at_once(others: Sequence[RodOther], environment: Environment | None) -> tuple[Contender, ...]:
+    """The elements of somebody else's solver under every load.
 
     Args:
-        other: Whose.
+        others: Of one module.
         environment: Where it lives; None: nowhere.
 
     Returns:
-        An attempt a load.
+        An attempt a load of each.
     """
     if environment is None:
-        return Contender(ONCE, other.taker, (), ABSENT)
+        return tuple(Contender(ONCE, other.taker, (), ABSENT) for other in others)
     asked = problems()
-    settings = [
-        {
-            "elements": ELEMENTS,
-            **other.options,
-            "problem": problem.told,
-            "near": problem.tips[other.taker.assumes],
-            "within": SOUGHT,
-            "ladder": (1,),
-        }
-        for problem in asked
-    ]
     question = {
-        "module": f"verification.peers.{other.module}",
-        "package": other.package,
+        "module": f"verification.peers.{others[0].module}",
+        "package": others[0].package,
         "pose": "rod",
         "problem": asked[0].told,
-        "settings": settings,
+        "settings": [at_once(other, problem) for other in others for problem in asked],
         "repeats": 1,
         "budget": 0.0,
     }
-    found: tuple[Answer | Refused, ...] = ask_all(environment.python, question)
-    attempts = [attempt(other, p, ELEMENTS, answer) for p, answer in zip(asked, found, strict=True)]
-    named = tuple(replace(a, stepping=f"{load:g}") for load, a in zip(LOADS, attempts, strict=True))
-    return Contender(ONCE, other.taker, named)
+    answers = iter(ask_all(environment.python, question))
+    loads = tuple(zip(asked, LOADS, strict=True))
+    return tuple(
+        Contender(ONCE, other.taker, tuple(taken(other, *one, next(answers)) for one in loads)) for other in others
+    )
+
+
+def at_once(other: RodOther, problem: RodProblem) -> dict[str, Any]:
+    """One element under one load."""
+    sought = {"near": problem.tips[other.taker.assumes], "within": SOUGHT, "ladder": (1,)}
+    return {"elements": ELEMENTS, **other.options, "problem": problem.told, **sought}
+
+
+def taken(other: RodOther, problem: RodProblem, load: float, answer: Answer | Refused) -> Attempt:
+    """What became of it."""
+    return replace(attempt(other, problem, ELEMENTS, answer), stepping=f"{load:g}")
 
 
 def ours_at_once(taker: Taker, model: Model) -> Contender:

@@ -10,7 +10,7 @@ from verification.peers.environment import installed
 from verification.peers.onestep import ONCE, ONCE_OURS, others_at_once, ours_at_once
 from verification.peers.others import OTHERS, others_measured
 from verification.peers.ours import OURS, ours_measured
-from verification.peers.rodothers import ROD_OTHERS, rod_others_measured
+from verification.peers.rodothers import rod_others_measured, together
 from verification.peers.rodours import ROD_OURS, rod_ours_measured
 from verification.peers.rods import RODS
 from verification.peers.rough import ROUGH
@@ -62,11 +62,11 @@ def _rods(quick: bool) -> Iterator[Unit]:
                 parameters = (problem.name, own.taker.name, own.taker.assumes, extent)
                 yield Unit("peer", words, parameters, partial(rod_ours_measured, own, problem, quick=quick))
         # Those that come to rest take seconds, and compile for a minute before.
-        for other in (other for other in ROD_OTHERS if not (quick and other.relaxes)):
-            words = f"{problem.name}: {other.taker.name}"
-            parameters = (problem.name, other.taker.name, stamp, extent)
+        for others in (others for others in together() if not (quick and others[0].relaxes)):
+            words = f"{problem.name}: {others[0].package}"
+            parameters = (problem.name, others[0].package, stamp, extent)
             yield Unit(
-                "peer", words, parameters, partial(rod_others_measured, other, problem, environment, quick=quick)
+                "peer", words, parameters, partial(rod_others_measured, others, problem, environment, quick=quick)
             )
 
 
@@ -77,9 +77,9 @@ def _once() -> Iterator[Unit]:
     for taker, model in ONCE_OURS:
         words = f"Tip loads in one step: {taker.name}, {taker.assumes}"
         yield Unit("peer", words, (ONCE, taker.name, taker.assumes), partial(ours_at_once, taker, model))
-    for other in (other for other in ROD_OTHERS if not other.relaxes):
-        words = f"Tip loads in one step: {other.taker.name}"
-        yield Unit("peer", words, (ONCE, other.taker.name, stamp), partial(others_at_once, other, environment))
+    for others in (others for others in together() if not others[0].relaxes):
+        words = f"Tip loads in one step: {others[0].package}"
+        yield Unit("peer", words, (ONCE, others[0].package, stamp), partial(others_at_once, others, environment))
 
 
 def _swing(quick: bool) -> Iterator[Unit]:

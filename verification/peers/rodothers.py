@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,13 +17,13 @@ from verification.peers.rods import RODS
 if TYPE_CHECKING:
     from verification.peers.rods import RodProblem
 
-__all__ = ["LADDER", "ROD_OTHERS", "RodOther", "rod_others_measured"]
+__all__ = ["LADDER", "ROD_OTHERS", "RodOther", "rod_others_measured", "together"]
 
 # Equal load steps, of which the fewest that find the equilibrium count; another one is this far off, over the length.
 LADDER, SOUGHT = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128), 0.1
 REPEATS, BUDGET = 10, 0.25
-# For all meshes of an element; more than ten times what the slowest takes on an idle machine [s].
-PATIENCE = 240.0
+# For all meshes of a solver; more than ten times what the slowest takes on an idle machine [s].
+PATIENCE = 600.0
 HOW, RELAXED = "load steps, Newton", "damped motion until it rests"
 QUICK_REPEATS, QUICK_BUDGET = 3, 0.1
 
@@ -113,58 +114,91 @@ ROD_OTHERS = (
 )
 
 
+def together() -> tuple[tuple[RodOther, ...], ...]:
+    """Elements of each solver: one process tries them all, as some take seconds to import."""
+    return tuple(tuple(own) for _, own in groupby(ROD_OTHERS, key=lambda other: other.module))
+
+
 def rod_others_measured(
-    other: RodOther, problem: RodProblem, environment: Environment | None, *, quick: bool
-) -> Contender:
-    """One element on one problem.
+    others: Sequence[RodOther], problem: RodProblem, environment: Environment | None, *, quick: bool
+) -> tuple[Contender, ...]:
+    """The elements of one solver on one problem.
 
     Args:
-        other: Whose.
+        others: As `together` has them.
         problem: The rod.
         environment: Where it lives; None: nowhere.
         quick: On two meshes only.
 
     Returns:
-        Its attempts, or why there are none.
+        Attempts of each, and of the quickest the time of a whole process.
     """
-    absent = ABSENT if environment is None else other.without(problem)
-    if environment is None or absent:
-        return Contender(problem.name, other.taker, (), absent)
-    meshes = other.meshes[1:3] if quick else other.meshes
-    question = asked(other, problem, meshes, quick=quick)
-    found = ask_all(environment.python, question, patience=PATIENCE)
-    attempts = tuple(attempt(other, problem, n, answer) for n, answer in zip(meshes, found, strict=True))
-    contender = Contender(problem.name, other.taker, attempts)
-    best = contender.quickest()
-    if best is None or quick or other.relaxes:
-        return contender
-    k = attempts.index(best)
-    settled = question["settings"][k] | {"ladder": (best.found.steps if best.found else 1,)}
-    return Contender(problem.name, other.taker, attempts, cold=cold(environment, question, settled))
+    why = [ABSENT if environment is None else other.without(problem) for other in others]
+    able = [other for other, reason in zip(others, why, strict=True) if not reason]
+    found = iter(measured(able, problem, environment, quick=quick) if environment is not None and able else ())
+    return tuple(
+        Contender(problem.name, other.taker, (), reason) if reason else next(found)
+        for other, reason in zip(others, why, strict=True)
+    )
 
 
-def cold(environment: Environment, question: dict[str, Any], settings: dict[str, Any]) -> float | None:
-    """Seconds of a process that does nothing else [s]."""
+def measured(
+    others: Sequence[RodOther], problem: RodProblem, environment: Environment, *, quick: bool
+) -> list[Contender]:
+    """Those that take it."""
+    meshes = [other.meshes[1:3] if quick else other.meshes for other in others]
+    question = asked(others, meshes, problem, quick=quick)
+    answers = iter(ask_all(environment.python, question, patience=PATIENCE))
+    found = [
+        Contender(problem.name, other.taker, tuple(attempt(other, problem, n, next(answers)) for n in numbers))
+        for other, numbers in zip(others, meshes, strict=True)
+    ]
+    quickest = [(best.found.solve, k) for k, c in enumerate(found) if (best := c.quickest()) and best.found]
+    if quick or others[0].relaxes or not quickest:
+        return found
+    _, k = min(quickest)
+    found[k] = replace(found[k], cold=cold(environment, question, found, found[k].quickest()))
+    return found
+
+
+def cold(
+    environment: Environment, question: dict[str, Any], found: Sequence[Contender], best: Attempt | None
+) -> float | None:
+    """Seconds of a process that takes one of its attempts and does nothing else [s]."""
+    attempts = [one for c in found for one in c.attempts]
+    k = next(k for k, one in enumerate(attempts) if one is best)
+    steps = best.found.steps if best is not None and best.found is not None else None
+    settled = question["settings"][k] | {"ladder": (steps or 1,)}
     try:
-        return ask_cold(environment.python, question | {"settings": [settings]})
+        return ask_cold(environment.python, question | {"settings": [settled]})
     except Refused:
         return None
 
 
-def asked(other: RodOther, problem: RodProblem, meshes: tuple[int, ...], *, quick: bool) -> dict[str, Any]:
+def asked(
+    others: Sequence[RodOther], meshes: Sequence[Sequence[int]], problem: RodProblem, *, quick: bool
+) -> dict[str, Any]:
     """The question, all meshes in one."""
-    sought: dict[str, Any] = {"near": problem.tips[other.taker.assumes], "within": SOUGHT * problem.length}
-    sought |= {} if other.relaxes else {"ladder": LADDER}
     repeats, budget = (QUICK_REPEATS, QUICK_BUDGET) if quick else (REPEATS, BUDGET)
     return {
-        "module": f"verification.peers.{other.module}",
-        "package": other.package,
+        "module": f"verification.peers.{others[0].module}",
+        "package": others[0].package,
         "pose": "rod",
         "problem": problem.told,
-        "settings": [{"elements": n, **other.options, **sought} for n in meshes],
-        "repeats": 1 if other.relaxes else repeats,
+        "settings": [
+            {"elements": n, **other.options, **sought(other, problem)}
+            for other, numbers in zip(others, meshes, strict=True)
+            for n in numbers
+        ],
+        "repeats": 1 if others[0].relaxes else repeats,
         "budget": budget,
     }
+
+
+def sought(other: RodOther, problem: RodProblem) -> dict[str, Any]:
+    """The equilibrium that counts, and in which numbers of load steps it is looked for."""
+    where: dict[str, Any] = {"near": problem.tips[other.taker.assumes], "within": SOUGHT * problem.length}
+    return where if other.relaxes else where | {"ladder": LADDER}
 
 
 def attempt(other: RodOther, problem: RodProblem, elements: int, answer: Answer | Refused) -> Attempt:

@@ -30,6 +30,8 @@ __all__ = ["ROD_OURS", "RodOwn", "rod_ours_measured"]
 
 # Numbers of load steps that find the equilibrium without a cut, of which the quickest counts, as for the others.
 FEWEST = 2
+# Of which rods whole processes are timed: they do all that rods can.
+WHOLE = "sheared"
 
 
 @dataclass(frozen=True)
@@ -39,10 +41,12 @@ class RodOwn:
     Args:
         taker: For the table.
         meshes: Model and number of elements, one pair a setting.
+        whole: Whether a whole process is timed as well, of which nearly all is the same whatever rods cannot do.
     """
 
     taker: Taker
     meshes: tuple[tuple[Model, int], ...]
+    whole: bool = True
 
     def without(self, problem: RodProblem) -> str:
         """Why it does not take a problem; "" where it does."""
@@ -65,7 +69,7 @@ def continuum(assumes: str, kinematics: Planar | Spatial) -> RodOwn:
     space = isinstance(kinematics, Spatial)
     taker = Taker(name, True, True, HOW, "mixed elements × degree", assumes, space, exact=True)
     meshes = tuple((models[k], n) for k, numbers in MESHES.items() for n in numbers)
-    return RodOwn(taker, meshes)
+    return RodOwn(taker, meshes, whole=assumes == WHOLE)
 
 
 MESHES = {2: (2, 4, 16), 3: (1, 2, 4, 8, 16), 4: (1, 2, 4, 6), 5: (1, 2, 3, 4)}
@@ -99,7 +103,7 @@ def rod_ours_measured(own: RodOwn, problem: RodProblem, *, quick: bool) -> Conte
     )
     contender = replace(found, attempts=tuple(map(with_steps, found.attempts)))
     best = contender.quickest()
-    if best is None or best.found is None or quick:
+    if best is None or best.found is None or quick or not own.whole:
         return contender
     k = chosen[contender.attempts.index(best)]
     return replace(contender, cold=cold(problem.name, ROD_OURS.index(own), k, best.found.steps or 1))

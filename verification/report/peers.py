@@ -33,7 +33,7 @@ WORDS = {
     "thread, in a process that is warm, the quickest repetition, in the better of the two fewest numbers of load steps "
     "that find the equilibrium; nothing is interpolated. Alone: nobody else got there with the meshes of this "
     "sweep, which in a quick run are two or three a solver and say nothing about finer ones. Cold: a whole process "
-    "with its imports, compiled code at hand.",
+    "with its imports, compiled code at hand: of the others the quickest element of each, of ours rods that shear.",
 }
 NUMBER = "number"
 
