@@ -175,11 +175,11 @@ def choose(scene: Scene, kinematics: Planar | Spatial | None) -> Planar | Spatia
     Raises:
         SceneError: Planar is asked for, but something leads out of the plane.
     """
+    if isinstance(kinematics, Spatial):
+        return kinematics
     found = detect(scene)
     if kinematics is None:
         return found
-    if isinstance(kinematics, Spatial):
-        return kinematics
     if not isinstance(kinematics, Planar):
         raise SceneError(f"kinematics must be Planar(), Spatial() or None, got {kinematics!r}")
     if kinematics.normal is None:
