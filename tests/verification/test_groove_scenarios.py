@@ -13,6 +13,7 @@ from verification.groovescenariobeside import brief, by_both, with_image
 from verification.groovescenarioclaims import judged, with_claims
 from verification.ledger import decode, encode
 from verification.report import groovescenario, groovescenariopaper
+from verification.report.groovekept import bundles_kept
 from verification.report.misses import sentence
 
 NAMES = ("lateral", "intermediate", "mirrored", "L2", "L2-mirrored", "pinned", "still", "half-elements")
@@ -94,6 +95,20 @@ def test_every_setting_is_another_scenario_and_can_be_asked_for():
         units = list(groovescenariotrials.units(names, quick=quick))
         assert len({unit.parameters for unit in units}) == len(units)
     assert len(list(groovescenariotrials.listing(names))) == len(names)
+
+
+def test_markdown_holds_every_claim_its_verdict_and_the_means_it_rests_on():
+    ensembles = tuple((as_hoped() | {"mirrored": made("mirrored", about=3.0)}).values())
+    found = with_claims(ensembles)
+    heading, claims, means = bundles_kept(found)
+    assert heading.startswith("## ")
+    for claim in judged(ensembles):
+        sign = ("✓" if claim.holds else "✗") if claim.asked else "not judged"
+        assert f"| {claim.title} | {claim.found} | {sign} |" in claims
+    assert "✗" in claims
+    assert "| L2 | 10 of 10 | 20.0 (19.5 to 20.5) |" in means
+    assert len(means.splitlines()) == 2 + len(ensembles)
+    assert bundles_kept(()) == []
 
 
 @pytest.mark.serial

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from verification.groovescenarioclaims import Gathered
 
-__all__ = ["TITLE", "WORDS", "outcomes", "scenarios"]
+__all__ = ["TITLE", "WORDS", "outcomes", "ranged", "scenarios"]
 
 TITLE = "Bundles in the groove"
 WORDS = (
@@ -86,17 +86,17 @@ def _ensemble(one: GrooveEnsemble) -> Row:
     return (
         one.title,
         f"{count(ended)} of {count(one.seeds)}",
-        _mean(one.crossed, 1),
-        _mean(one.paired, 1),
-        _mean(one.wound, 1),
+        ranged(one.crossed, 1),
+        ranged(one.paired, 1),
+        ranged(one.wound, 1),
         count(round(sum(one.edge))),
         "–" if not ended else count(round(1e6 * sum(one.width) / ended)),
         figure(round(one.seconds / max(one.seeds, 1), 1)),
     )
 
 
-def _mean(values: Sequence[float], digits: int) -> str:
-    """With its interval where there are two or more."""
+def ranged(values: Sequence[float], digits: int) -> str:
+    """Mean of values with its interval of 95 %, to so many digits; a dash where there are not even two."""
     if len(values) < 2:
         return "–"
     mean = of_mean(values)

@@ -7,6 +7,7 @@ from importlib.resources import files
 from typing import TYPE_CHECKING
 
 from verification.report.canvas import HEIGHT, WIDTH, markers
+from verification.report.groovekept import bundles_kept
 from verification.report.misses import sentence
 from verification.report.outcomes import outcomes
 from verification.report.verdict import panels, sentences
@@ -65,6 +66,7 @@ def markdown(report: Report, command: str, *, pictured: bool) -> str:
     parts.append("\n".join(["| | numbers | what holds |", "|---|---|---|", *rows]))
     if report.missed:
         parts += ["## Beyond their limits", "\n".join(f"- {sentence(row)}" for row in report.missed)]
+    parts += bundles_kept(report.scenarios)
     parts += ["## Environment", "\n".join(["| | |", "|---|---|", *(f"| {k} | {v} |" for k, v in facts.items())])]
     return "\n\n".join(part.rstrip() for part in parts) + "\n"
 
