@@ -158,16 +158,25 @@ def test_failed_set_up_is_tried_again(machine):
 @pytest.mark.parametrize(
     ("arguments", "asked"),
     [
-        (["report", "--quick"], "-m verification --quick"),
+        (["report", "--quick"], "-m verification --jobs 2 --quick"),
         (["test", "-k", "elastica"], "-m pytest --numprocesses=auto --maxprocesses=4 -k elastica"),
-        (["report", "elastica*", "--out", "there"], "-m verification elastica* --out there"),
+        (["report", "elastica*", "--out", "there"], "-m verification --jobs 2 elastica* --out there"),
         (["test", "--all", "-x"], "-m pytest --numprocesses=auto --maxprocesses=4 -m  -x"),
     ],
 )
 def test_commands_go_to_the_python_of_the_virtual_environment(machine, arguments, asked):
     machine.fake("dpkg-query", ALL_INSTALLED)
+    machine.fake("nproc", "echo 2")
     assert machine.run(*arguments).returncode == 0
     assert machine.calls[-1] == asked
+
+
+@pytest.mark.parametrize(("cores", "jobs"), [(1, 1), (4, 4), (64, 4)])
+def test_a_report_does_as_many_units_at_once_as_there_are_cores_up_to_four(machine, cores, jobs):
+    machine.fake("dpkg-query", ALL_INSTALLED)
+    machine.fake("nproc", f"echo {cores}")
+    assert machine.run("report", "--jobs", "1").returncode == 0
+    assert machine.calls[-1] == f"-m verification --jobs {jobs} --jobs 1"
 
 
 def test_compile_makes_forms_of_the_degrees_asked_for_and_kernels(machine):
