@@ -17,22 +17,17 @@ from typing import TYPE_CHECKING
 from petsc4py import PETSc
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from dolfinrod.continuum.banded import own_band
-from dolfinrod.continuum.direct import LIBRARY_ERROR, ROOM, lu
+from dolfinrod.continuum.direct import lu
+from dolfinrod.continuum.joint import Joint, JointLU
 from dolfinrod.scene import Dynamic
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from dolfinrod.continuum.banded import BandedLU
     from dolfinrod.continuum.pairs import Pairs
     from dolfinrod.continuum.problem import Problem
 
-    Array = NDArray[np.float64]
-    Integers = NDArray[np.int64]
-    Entries = tuple[NDArray[np.int32], NDArray[np.int32], Array]
 
 __all__ = ["CoupledLU", "coupled", "linear_solver"]
 
@@ -52,52 +47,15 @@ def linear_solver(pc: PETSc.PC, P: PETSc.Mat, problem: Problem) -> BandedLU | Co
     return solver
 
 
-def _linked(P: PETSc.Mat, pairs: Pairs) -> PETSc.Mat:
-    """C at the present state: what is not in P, as it was assembled last."""
-    every = [_inside(pairs), *(_entries(pairs, nodes, blocks) for nodes, blocks in pairs.links().blocks())]
-    rows, columns, values = (np.concatenate(parts) for parts in zip(*every, strict=True))
-    comm, (start, end), N = P.getComm(), P.getOwnershipRange(), P.getSize()[0]
-    if comm.size > 1:
-        gathered = comm.tompi4py().allgather((rows, columns, values))
-        rows, columns, values = (np.concatenate(parts) for parts in zip(*gathered, strict=True))
-        mine = (rows >= start) & (rows < end)
-        rows, columns, values = rows[mine] - start, columns[mine], values[mine]
-    C = csr_array((values, (rows, columns)), shape=(end - start, N))
-    csr = C.indptr.astype(np.int32), C.indices.astype(np.int32), C.data
-    return PETSc.Mat().createAIJ(P.getSizes(), csr=csr, comm=comm)
-
-
-def _entries(pairs: Pairs, nodes: Integers, blocks: Array) -> Entries:
-    """Rows, columns and values that are not zero, numbered over all ranks."""
-    m, M, n = blocks.shape[:3]
-    dofs = pairs.everywhere.dofs[nodes][:, :, :n].reshape(m, M * n)
-    blocks = blocks.reshape(m, M * n, M * n)
-    p, i, j = np.nonzero(blocks)
-    return dofs[p, i], dofs[p, j], blocks[p, i, j]
-
-
-def _inside(pairs: Pairs) -> Entries:
-    """What nodes feel of what they do themselves beyond what is in P."""
-    beyond = pairs.links().nodal - pairs.inside
-    return _entries(pairs, pairs.everywhere.own[:, None], beyond[:, None, :, None])
-
-
 @contextmanager
 def coupled(P: PETSc.Mat, problem: Problem) -> Iterator[PETSc.Mat]:
     """J of a problem whose P has just been assembled; P itself where no rods may touch."""
     if problem.pairs is None:
         yield P
         return
-    J = _whole(P, problem.pairs)
-    yield J
-    J.destroy()
-
-
-def _whole(P: PETSc.Mat, pairs: Pairs) -> PETSc.Mat:
-    J, C = P.copy(), _linked(P, pairs)
-    J.axpy(1.0, C, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-    C.destroy()
-    return J
+    joint = Joint(problem.pairs)
+    yield joint.filled(P)
+    joint.close()
 
 
 class Unforeseen:
@@ -166,6 +124,7 @@ class CoupledLU:
     def __init__(self, problem: Problem) -> None:
         self._problem, d = problem, problem.discretization
         self._band = d.band or own_band(d.matrix)
+        self._whole = JointLU(self._pairs)
         self._factors: PETSc.PC | None = None
         self._unforeseen: Unforeseen | None = None
         self._krylov: PETSc.KSP | None = None
@@ -182,10 +141,11 @@ class CoupledLU:
 
     def setUp(self, pc: PETSc.PC) -> None:
         """Factorise P or J."""
-        self.destroy(pc)
+        self._forget()
         P = pc.getOperators()[1]
         if not isinstance(self._problem.scene.motion, Dynamic):
-            self._factors = self._factorized(P)
+            self._whole.factorize(P)
+            self.singular = self._whole.singular
             return
         self._factors = factors = PETSc.PC().create(P.getComm())
         band = lu(factors, P, self._band)
@@ -194,35 +154,18 @@ class CoupledLU:
         self._unforeseen = Unforeseen(self._pairs, factors, self._problem.discretization.x.vector)
         self._krylov = _gmres(self._unforeseen, P)
 
-    def _factorized(self, P: PETSc.Mat) -> PETSc.PC:
-        """J by MUMPS."""
-        J, factors = _whole(P, self._pairs), PETSc.PC().create(P.getComm())
-        factors.setType(PETSc.PC.Type.LU)
-        factors.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
-        factors.setOperators(J)
-        factors.setFactorSetUpSolverType()
-        factors.getFactorMatrix().setMumpsIcntl(14, ROOM)
-        try:
-            factors.setUp()
-            self.singular = factors.getFactorMatrix().getMumpsInfog(1) < 0
-        except PETSc.Error as error:
-            if error.ierr != LIBRARY_ERROR:
-                raise
-            self.singular = True
-        J.destroy()
-        return factors
-
     def apply(self, pc: PETSc.PC, b: PETSc.Vec, x: PETSc.Vec) -> None:
         """Solve; not a number where J is singular, which ends SNES."""
-        if self._krylov is not None and not self.singular and not self._iterated(b, x):
-            assert self._factors is not None
-            self._krylov.destroy()
-            self._factors.destroy()
-            self._krylov, self._factors = None, self._factorized(pc.getOperators()[1])
-        if self.singular or self._factors is None:
+        if self.singular:
             x.set(np.nan)
-        elif self._krylov is None:
-            self._factors.apply(b, x)
+            return
+        if self._krylov is not None:
+            if self._iterated(b, x):
+                return
+            self._forget()
+            self._whole.factorize(pc.getOperators()[1])
+            self.singular = self._whole.singular
+        self._whole.apply(b, x)
 
     def _iterated(self, b: PETSc.Vec, x: PETSc.Vec) -> bool:
         """Solve by GMRES; whether it could."""
@@ -244,6 +187,11 @@ class CoupledLU:
 
     def destroy(self, pc: PETSc.PC) -> None:
         """Free the factors."""
+        self._forget()
+        self._whole.close()
+
+    def _forget(self) -> None:
+        """Free what is of one state alone."""
         for part in (self._krylov, self._factors):
             if part is not None:
                 part.destroy()

@@ -11,7 +11,7 @@ from dolfinrod.continuum.banded import BandedLU
 if TYPE_CHECKING:
     from dolfinrod.continuum.banded import Band
 
-__all__ = ["LIBRARY_ERROR", "banded_lu", "everywhere", "lu"]
+__all__ = ["LIBRARY_ERROR", "banded_lu", "everywhere", "lu", "mumps"]
 
 # PETSC_ERR_LIB, an error in a library that PETSc calls.
 LIBRARY_ERROR = 76
@@ -40,13 +40,19 @@ def lu(pc: PETSc.PC, A: PETSc.Mat, band: Band | None) -> BandedLU | None:
         The band's factors, or None where MUMPS has them.
     """
     if band is None:
-        pc.setType(PETSc.PC.Type.LU)
-        pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
-        pc.setOperators(A)
-        pc.setFactorSetUpSolverType()
-        pc.getFactorMatrix().setMumpsIcntl(14, ROOM)
+        mumps(pc, A)
         return None
     return banded_lu(pc, A, band)
+
+
+def mumps(pc: PETSc.PC, A: PETSc.Mat) -> PETSc.PC:
+    """Make a preconditioner the LU factors of a matrix by MUMPS; it is returned."""
+    pc.setType(PETSc.PC.Type.LU)
+    pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+    pc.setOperators(A)
+    pc.setFactorSetUpSolverType()
+    pc.getFactorMatrix().setMumpsIcntl(14, ROOM)
+    return pc
 
 
 def banded_lu(pc: PETSc.PC, A: PETSc.Mat, band: Band) -> BandedLU:

@@ -29,6 +29,7 @@ class Everywhere:
         problem: Owner of the state.
 
     Attributes:
+        comm: All its ranks.
         cells: Numbers of the nodes of every element of the scene, ascending along it, shape (n_cells, k + 1).
         own: Numbers of this rank's own nodes, in the order of `Discretization.owned_nodes`.
         r: Dofs of their centreline on this rank, shape (n_own, d).
@@ -38,36 +39,36 @@ class Everywhere:
 
     def __init__(self, problem: Problem) -> None:
         d = problem.discretization
-        self._comm, k = d.comm, d.degree
+        self.comm, k = d.comm, d.degree
         first = np.concatenate([[0], np.cumsum(np.array(d.elements) * k + 1)])
         along = [first[j] + k * np.arange(n)[:, None] + np.arange(k + 1) for j, n in enumerate(d.elements)]
         self.cells, self.n = np.concatenate(along), int(first[-1])
         self.r, self.q = d.owned_nodes("r"), d.owned_nodes("q")
         number = np.zeros(len(problem.x), dtype=np.int64)
         number[d.dofs["r"][:, np.argsort(d.nodes), 0]] = self.cells[d.cell]
-        self.own = number[self.r[:, 0]]
-        every = self._comm.allgather(self.own)
+        self.own: Integers = number[self.r[:, 0]]
+        every = self.comm.allgather(self.own)
         self._order, self._counts = np.concatenate(every), np.array([len(own) for own in every])
         local = np.concatenate([self.r, self.q], axis=1).ravel().astype(np.int32)
         numbers = d.matrix.getLGMap()[0].apply(local)
         mine = numbers.reshape(len(self.own), -1).astype(float)
-        self.dofs = self.gathered(mine).astype(np.int32)
+        self.dofs: NDArray[np.int32] = self.gathered(mine).astype(np.int32)
 
     def gathered(self, own: Array) -> Array:
         """Values of all nodes from those of each rank's own, shape (n_own, m) to (n_nodes, m)."""
         table = np.empty((self.n, own.shape[1]))
-        if self._comm.size == 1:
+        if self.comm.size == 1:
             table[self.own] = own
             return table
         everyone = np.empty_like(table)
-        self._comm.Allgatherv(np.ascontiguousarray(own), (everyone, self._counts * own.shape[1]))
+        self.comm.Allgatherv(np.ascontiguousarray(own), (everyone, self._counts * own.shape[1]))
         table[self._order] = everyone
         return table
 
     def summed(self, values: Array) -> Array:
         """What all ranks have put on all nodes, added up in place."""
-        if self._comm.size > 1:
-            self._comm.Allreduce(MPI.IN_PLACE, values)
+        if self.comm.size > 1:
+            self.comm.Allreduce(MPI.IN_PLACE, values)
         return values
 
 

@@ -24,8 +24,8 @@ from slepc4py import SLEPc
 import numpy as np
 
 from dolfinrod.continuum import backend
-from dolfinrod.continuum.coupled import coupled
 from dolfinrod.continuum.inertia import Determinant, NegativePivots
+from dolfinrod.continuum.joint import Joint
 from dolfinrod.continuum.lift import lifted
 from dolfinrod.continuum.mass import ALIKE, densities
 from dolfinrod.continuum.neutral import PhaseCondition
@@ -88,7 +88,7 @@ class Judge:
         self._densities = densities(problem.scene)
         self._lumped: PETSc.Mat | None = None
         self._lift: PETSc.Vec | None = None
-        self._pivots = NegativePivots(d.comm)
+        self._pivots, self._joint = NegativePivots(d.comm), None if problem.pairs is None else Joint(problem.pairs)
         self._determinant: Determinant | None = None
 
     def verdict(self, state: State, t: float, *, closely: bool, doubt: float = 0.0) -> Verdict:
@@ -107,8 +107,7 @@ class Judge:
         problem.assemble_tangent(A, on_sphere=True)
         A.setDiagonal(self._neutral(A, doubt), PETSc.InsertMode.ADD)
         if problem.conservative:
-            with coupled(A, problem) as tangent:
-                unstable = self._pivots.count(tangent) - self._n_dual
+            unstable = self._pivots.count(A if self._joint is None else self._joint.filled(A)) - self._n_dual
             return Verdict(unstable == 0, unstable, avoidable=unstable > 0)
         if problem.pairs is not None:
             return Verdict(None)
@@ -182,8 +181,9 @@ class Judge:
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together."""
         self._pivots.close()
-        if self._determinant is not None:
-            self._determinant.close()
+        for part in (self._determinant, self._joint):
+            if part is not None:
+                part.close()
         for owned in (self._lumped, self._lift):
             if owned is not None:
                 owned.destroy()

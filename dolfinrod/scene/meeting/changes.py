@@ -153,53 +153,82 @@ def _matrices(columns: Array, vectors: Array, K: Array) -> None:
 
 
 @compiled
-def _add_block(w: Array, arm: float, a: int, b: int, K: Array, block: Array) -> None:
-    """Add the change of force and moment of node a of a point by the place and the turn of b: f_x, f_turn, m_x, m_turn.
+def _by_node(w: Array, arm: float, b: int, K: Array, by: Array, at: int) -> None:
+    """What node b does to all nodes of a point by its place and its turn, before weights of these are put to it.
 
     Args:
         w: Weights of its nodes.
         arm: Of the second rod.
-        a: Number of a node.
-        b: Likewise.
+        b: Number of a node.
         K: Its matrices.
-        block: Shape (9,), or (36,) where anything turns.
+        by: Of forces by the place, felt by h and h_v of the others; of forces by the turn, felt by h; of couples by the
+            place, felt by lever, whole and h_v; of couples by the turn, felt by lever; shape (2 or 7, m).
+        at: The first of nine columns of these.
     """
-    h_a, h_b, v_a, v_b, e = w[H, a], w[H, b], w[H_V, a], w[H_V, b], w[H_END, b]
+    h, h_v, e = w[H, b], w[H_V, b], w[H_END, b]
     for q in range(9):
-        moved = h_b * K[0, q] + v_b * K[1, q] + e * K[2, q]
-        block[q] += h_a * moved - v_a * (h_b * K[3, q] + v_b * K[4, q])
-    if len(block) > 9:
-        l_a, l_b, w_b, longer, arm_v = w[LEVER, a], w[LEVER, b], w[WHOLE, b], w[WHOLE, a] * h_b, arm * v_a
+        by[0, at + q] = h * K[0, q] + h_v * K[1, q] + e * K[2, q]
+        by[1, at + q] = h * K[3, q] + h_v * K[4, q]
+    if len(by) > 2:
+        lever, whole = w[LEVER, b], w[WHOLE, b]
         for q in range(9):
-            moved = h_b * K[7, q] + v_b * K[8, q] + e * K[9, q]
-            block[9 + q] += h_a * (l_b * K[5, q] + w_b * K[6, q])
-            block[18 + q] -= l_a * moved + longer * K[10, q] + arm_v * (h_b * K[11, q] + v_b * K[12, q])
-            block[27 + q] -= l_a * (l_b * K[13, q] + w_b * K[14, q])
+            by[2, at + q] = lever * K[5, q] + whole * K[6, q]
+            by[3, at + q] = h * K[7, q] + h_v * K[8, q] + e * K[9, q]
+            by[4, at + q] = h * K[10, q]
+            by[5, at + q] = arm * (h * K[11, q] + h_v * K[12, q])
+            by[6, at + q] = lever * K[13, q] + whole * K[14, q]
+
+
+@compiled
+def _add_blocks(w: Array, a: int, by: Array, blocks: Array, k: int) -> None:
+    """Add what node a feels of that: f_x, f_turn, m_x, m_turn.
+
+    Args:
+        w: Weights of the nodes.
+        a: Number of a node.
+        by: As `_by_node` has it; long rows, of which the machine adds several numbers at once.
+        blocks: Shape (n, 1 or 4, m).
+        k: To which of them.
+    """
+    h, h_v = w[H, a], w[H_V, a]
+    for q in range(by.shape[1]):
+        blocks[k, 0, q] += h * by[0, q] - h_v * by[1, q]
+    if len(by) > 2:
+        lever, whole = w[LEVER, a], w[WHOLE, a]
+        for q in range(by.shape[1]):
+            blocks[k, 1, q] += h * by[2, q]
+        for q in range(by.shape[1]):
+            blocks[k, 2, q] -= lever * by[3, q] + whole * by[4, q] + h_v * by[5, q]
+        for q in range(by.shape[1]):
+            blocks[k, 3, q] -= lever * by[6, q]
 
 
 @compiled
 def summed(pair: Integers, weights: Array, vectors: Array, columns: Array, arms: Array, n_pairs: int) -> Array:
-    """Blocks of pairs of cells, as `_add_block` has them, shape (n_pairs, M, M, 9 or 36)."""
-    M, K = weights.shape[2], np.empty((15, 9))
-    blocks = np.zeros((n_pairs, M, M, 36 if weights.shape[1] > 3 else 9))
+    """Blocks of pairs of cells: f_x, and f_turn, m_x, m_turn where anything turns; shape (n_pairs, M, 1 or 4, M, 9)."""
+    M, turned, K = weights.shape[2], weights.shape[1] > 3, np.empty((15, 9))
+    blocks, by = np.zeros((n_pairs * M, 4 if turned else 1, 9 * M)), np.empty((7 if turned else 2, 9 * M))
     for i in range(len(pair)):
-        w, arm, block = weights[i], arms[i], blocks[pair[i]]
+        w = weights[i]
         _matrices(columns[i], vectors[i], K)
+        for b in range(M):
+            _by_node(w, arms[i], b, K, by, 9 * b)
         for a in range(M):
-            for b in range(M):
-                _add_block(w, arm, a, b, K, block[a, b])
-    return blocks
+            _add_blocks(w, a, by, blocks, pair[i] * M + a)
+    return blocks.reshape(n_pairs, M, blocks.shape[1], M, 9)
 
 
 @compiled
 def diagonal(
     nodes: Integers, pair: Integers, weights: Array, vectors: Array, columns: Array, arms: Array, n_nodes: int
 ) -> Array:
-    """Those of single nodes, shape (n_nodes, 9 or 36); nodes by pairs of cells, shape (P, M)."""
-    blocks, K = np.zeros((n_nodes, 36 if weights.shape[1] > 3 else 9)), np.empty((15, 9))
+    """Those of single nodes, shape (n_nodes, 1 or 4, 9); nodes by pairs of cells, shape (P, M)."""
+    turned, K = weights.shape[1] > 3, np.empty((15, 9))
+    blocks, by = np.zeros((n_nodes, 4 if turned else 1, 9)), np.empty((7 if turned else 2, 9))
     for i in range(len(pair)):
-        w, arm = weights[i], arms[i]
+        w = weights[i]
         _matrices(columns[i], vectors[i], K)
         for a in range(weights.shape[2]):
-            _add_block(w, arm, a, a, K, blocks[nodes[pair[i], a]])
+            _by_node(w, arms[i], a, K, by, 0)
+            _add_blocks(w, a, by, blocks, nodes[pair[i], a])
     return blocks

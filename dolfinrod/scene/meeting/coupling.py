@@ -77,7 +77,8 @@ class Coupling:
     @cached_property
     def _blocks(self) -> list[Array]:
         """By places and turns, of forces, then of moments where anything turns, shape (P, M, 3, M, 3) each."""
-        return [part.transpose(0, 1, 3, 2, 4) for part in _parts(summed(self.pair, *self.changes, len(self.nodes)))]
+        blocks = summed(self.pair, *self.changes, len(self.nodes))
+        return [part.transpose(0, 1, 3, 2, 4) for part in _matrices(np.moveaxis(blocks, 2, 0))]
 
     @property
     def f_x(self) -> Array:
@@ -116,13 +117,13 @@ class Coupling:
         touched = np.zeros(self.n_nodes, dtype=bool)
         touched[self.nodes] = True
         nodes, at = np.flatnonzero(touched), (np.cumsum(touched) - 1)[self.nodes]
-        blocks = _parts(diagonal(at, self.pair, *self.changes, len(nodes)))
+        blocks = _matrices(np.swapaxes(diagonal(at, self.pair, *self.changes, len(nodes)), 0, 1))
         return Nodal(nodes, blocks[0], *(blocks[1:] if self.turns else (None, None, None)))
 
 
-def _parts(blocks: Array) -> list[Array]:
-    """Matrices 3 × 3 one beside the other, each on its own."""
-    return [part.reshape(*part.shape[:-1], 3, 3) for part in np.split(blocks, blocks.shape[-1] // 9, axis=-1)]
+def _matrices(parts: Array) -> list[Array]:
+    """Those that lie in rows of nine, 3 × 3, of one part after the other."""
+    return [part.reshape(*part.shape[:-1], 3, 3) for part in parts]
 
 
 @dataclass(frozen=True, eq=False)
