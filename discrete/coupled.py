@@ -12,7 +12,7 @@ Source: Saad & Schultz, SIAM J. Sci. Stat. Comput. 7, 1986, DOI 10.1137/0907058.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -180,12 +180,12 @@ def joined(
 
 def _beside(w: Array, V: Array) -> Array:
     """Take the parts along the rows of V off w; these, and the size of what is left, shape (k + 2,)."""
-    along, before = np.zeros(len(V)), float(np.linalg.norm(w))
+    along, before = np.zeros(len(V)), sqrt(w @ w)
     while True:
         part = V @ w
         w -= part @ V
         along += part
-        size = float(np.linalg.norm(w))
+        size = sqrt(w @ w)
         # Once more where round-off of the first time is as large as what is left.
         if not size < HALVED * before:
             return np.append(along, size)

@@ -15,8 +15,9 @@ __all__ = ["least", "record"]
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
 
-# Places between Gauss points at which the least gap is looked for.
-LOOKS = 33
+# Between Gauss points the least gap is looked for along the polynomial through all of them, at so many places.
+LOOKS, POWERS = 33, np.arange(len(GAUSS[0]))
+THROUGH = np.linspace(GAUSS[0][0], GAUSS[0][-1], LOOKS)[:, None] ** POWERS @ np.linalg.inv(GAUSS[0][:, None] ** POWERS)
 
 
 def _gather(nodes: Integers, values: Array, n_nodes: int) -> Array:
@@ -95,8 +96,5 @@ def least(pressed: Pressed, spot: Integers, n: int) -> Array:
     first, index = np.arange(max(len(spot) - last, 0)), pressed.index
     whole = (index[first] % m == 0) & (index[first + last] == index[first] + last)
     first = first[whole & (pressed.a[first] == pressed.a[first + last])]
-    powers = np.arange(m)
-    at = np.linspace(GAUSS[0][0], GAUSS[0][-1], LOOKS)[:, None] ** powers
-    through = at @ np.linalg.inv(GAUSS[0][:, None] ** powers)
-    np.minimum.at(gap, spot[first], (pressed.gap[first[:, None] + powers] @ through.T).min(axis=1, initial=np.inf))
+    np.minimum.at(gap, spot[first], (pressed.gap[first[:, None] + POWERS] @ THROUGH.T).min(axis=1, initial=np.inf))
     return gap
