@@ -13,8 +13,8 @@ __all__ = ["SEEDS", "SETTINGS", "GrooveEnsemble", "Setting", "gathered", "settin
 
 # Bundles of an ensemble, and of those that ask for no statistics.
 SEEDS, FEW = 10, 3
-# Of small bundles: fibres, elements by which theirs are longer, and the time they take to lie in the groove [s].
-SMALL, COARSER, GATHERED = 3, 4, 1.5e-3
+# Of small bundles: fibres, by how much elements and steps are longer, and the time until they lie in the groove [s].
+SMALL, COARSER, SLOWER, GATHERED = 3, 4, 2.0, 1.5e-3
 # Not fewer are judged.
 QUICK_SEEDS = 2
 LATERAL, INTERMEDIATE = Scenario("lateral"), Scenario("intermediate")
@@ -114,9 +114,9 @@ class GrooveEnsemble:
 
 
 def small(scenario: Scenario) -> Scenario:
-    """Fewer fibres on longer elements, until they lie in the groove."""
+    """Fewer fibres on longer elements in longer steps, until they lie in the groove."""
     elements, t_end = scenario.elements // COARSER, min(scenario.t_end, GATHERED)
-    return replace(scenario, fibres=SMALL, elements=elements, t_end=t_end)
+    return replace(scenario, fibres=SMALL, elements=elements, dt=SLOWER * scenario.dt, t_end=t_end)
 
 
 def setting(name: str) -> Setting:

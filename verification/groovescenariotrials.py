@@ -77,15 +77,16 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
 def _ensemble(one: Setting) -> Unit:
     """All its runs."""
     posed = one.scenario
-    key = ("ensemble", one.name, one.seeds, posed.fibres, posed.elements, posed.t_end)
+    key = ("ensemble", one.name, one.seeds, posed.fibres, posed.elements, posed.dt, posed.t_end)
     return Unit("groove scenario", f"Bundles: {one.words}", key, partial(gathered, one))
 
 
 def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:
     """Single bundles: by both models, and beside their images."""
     for scenario in (LATERAL, INTERMEDIATE) if {SCENARIOS, BESIDE} & asked else ():
-        # On the paper's elements, as the difference that is allowed is that of these.
-        yield _by_both(brief(scenario) if quick else replace(small(scenario), elements=scenario.elements))
+        # On the paper's elements in its steps, as the difference that is allowed is that of these.
+        whole = replace(small(scenario), elements=scenario.elements, dt=scenario.dt)
+        yield _by_both(brief(scenario) if quick else whole)
     for model in MODELS if {SCENARIOS, IMAGE} & asked else ():
         posed = brief(LATERAL) if quick else _short(small(LATERAL))
         words = f"A bundle and its mirror image: {model}"
