@@ -37,7 +37,13 @@ class _Compiled:
         update_wrapper(self, function)
 
     def __call__(self, *args: Any) -> Any:
-        return self._kernel(*args)
+        try:
+            return self._kernel(*args)
+        except SystemError as error:
+            # Ctrl-C while Numba hands an answer over: Python finds the interruption beside it.
+            if isinstance(error.__cause__, KeyboardInterrupt):
+                raise error.__cause__ from None
+            raise
 
     @cached_property
     def _called(self) -> dict[str, _Compiled]:

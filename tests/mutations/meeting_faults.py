@@ -105,7 +105,7 @@ def _astray(right: Any, *args: Any) -> Any:
 
 def _transposed(right: Any, *args: Any) -> Array:
     blocks: Array = right(*args)
-    return np.swapaxes(blocks, 1, 2)
+    return np.swapaxes(blocks, 1, 3)
 
 
 def _at_the_ends(right: Any, *args: Any) -> Any:
