@@ -40,9 +40,12 @@ class _Compiled:
         try:
             return self._kernel(*args)
         except SystemError as error:
-            # Ctrl-C while Numba hands an answer over: Python finds the interruption beside it.
-            if isinstance(error.__cause__, KeyboardInterrupt):
-                raise error.__cause__ from None
+            # Ctrl-C while Numba makes arrays of an answer: Python finds the interruption beside it, once or more often.
+            first: BaseException = error
+            while first.__cause__ is not None:
+                first = first.__cause__
+            if isinstance(first, KeyboardInterrupt):
+                raise first from None
             raise
 
     @cached_property

@@ -34,7 +34,10 @@ def test_ctrl_c_while_an_answer_is_handed_over_is_an_interruption(cause, seen):
     """Python then says "returned a result with an exception set"; whatever else it says so of stays what it is."""
 
     def handing_over(_):
-        raise SystemError("returned a result with an exception set") from cause
+        try:
+            raise SystemError("_numba_unpickle returned a result with an exception set") from cause
+        except SystemError as error:
+            raise SystemError("returned a result with an exception set") from error
 
     interrupted = compiled(grown)
     vars(interrupted)["_kernel"] = handing_over
