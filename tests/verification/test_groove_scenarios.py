@@ -12,6 +12,7 @@ from verification.groovescenario import SEEDS, SETTINGS, GrooveEnsemble, gathere
 from verification.groovescenariobeside import brief, by_both, with_image
 from verification.groovescenarioclaims import judged, with_claims
 from verification.ledger import decode, encode
+from verification.plan import selected
 from verification.report import groovescenario, groovescenariopaper
 from verification.report.groovekept import bundles_kept
 from verification.report.misses import sentence
@@ -97,6 +98,18 @@ def test_every_setting_is_another_scenario_and_can_be_asked_for():
     assert len(list(groovescenariotrials.listing(names))) == len(names)
 
 
+def test_what_few_small_bundles_tell_nothing_of_is_done_by_its_own_name_or_whole():
+    def ensembles(*names: str) -> list[str]:
+        found = groovescenariotrials.units(selected(names), quick=False)
+        return [unit.parameters[1] for unit in found if unit.parameters[0] == "ensemble"]
+
+    many = [one.name for one in SETTINGS if one.many]
+    assert {"half-elements", "half-steps", "twice-penalty"} <= set(many)
+    assert ensembles() == ensembles("groove-scenarios") == [one.name for one in SETTINGS if not one.many]
+    assert ensembles("groove-scenarios:half-steps") == ["half-steps"]
+    assert ensembles("groove-acceptance") == [one.name for one in SETTINGS]
+
+
 def test_markdown_holds_every_claim_its_verdict_and_the_means_it_rests_on():
     ensembles = tuple((as_hoped() | {"mirrored": made("mirrored", about=3.0)}).values())
     found = with_claims(ensembles)
@@ -108,7 +121,7 @@ def test_markdown_holds_every_claim_its_verdict_and_the_means_it_rests_on():
     assert "✗" in claims
     assert "| L2 | 10 of 10 | 20.0 (19.5 to 20.5) |" in means
     assert len(means.splitlines()) == 2 + len(ensembles)
-    assert bundles_kept(()) == []
+    assert bundles_kept(()) == bundles_kept(with_claims(tuple(as_hoped(SEEDS - 1).values()))) == []
 
 
 @pytest.mark.serial

@@ -30,7 +30,8 @@ WORDS = (
     "assumptions; nothing is fitted to the measured yarns. Twist is that of crossings, half a turn each, which the "
     "angles at the ends do not bias. A report takes three bundles of three fibres on elements four times as long in "
     "steps twice as long for 1.5 ms, a quick one two of two for a blink; ./run report groove-acceptance takes ten of "
-    "five on those of the paper until they are at rest."
+    "five on those of the paper until they are at rest, and those of which only many tell anything: refined ones, and "
+    "friction without a moment."
 )
 NUMBER, PROSE = "number", "prose"
 KINDS = (("continuum", "p3", False), ("discrete", "chord", True))
