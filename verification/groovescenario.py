@@ -13,8 +13,8 @@ __all__ = ["SEEDS", "SETTINGS", "GrooveEnsemble", "Setting", "gathered", "settin
 
 # Bundles of an ensemble, and of those that ask for no statistics.
 SEEDS, FEW = 10, 3
-# Of small bundles: fibres, by how much elements and steps are longer, and the time until they lie in the groove [s].
-SMALL, COARSER, SLOWER, GATHERED = 3, 4, 2.0, 1.5e-3
+# Of small bundles: fibres, elements by which theirs are longer, and the time they take to lie in the groove [s].
+SMALL, COARSER, GATHERED = 3, 4, 1.5e-3
 # Not fewer are judged.
 QUICK_SEEDS = 2
 LATERAL, INTERMEDIATE = Scenario("lateral"), Scenario("intermediate")
@@ -35,7 +35,6 @@ class Setting:
         scenario: But for its seed.
         seeds: How many.
         quick: Whether a quick run has it.
-        many: Whether the few small bundles of a report tell nothing of it: whole ones do, and small ones by its name.
     """
 
     name: str
@@ -43,7 +42,6 @@ class Setting:
     scenario: Scenario = field(repr=False)
     seeds: int = SEEDS
     quick: bool = False
-    many: bool = False
 
     def small(self) -> Setting:
         """The same for a report, which is to take less than half an hour."""
@@ -59,16 +57,14 @@ SETTINGS = (
     Setting("lateral", "lateral", LATERAL, quick=True),
     Setting("intermediate", "intermediate", INTERMEDIATE, quick=True),
     Setting("mirrored", "lateral, its mirror image", variant(LATERAL, "mirrored"), quick=True),
-    Setting("L0", "lateral, friction without a moment (L0)", variant(LATERAL, "L0"), many=True),
+    Setting("L0", "lateral, friction without a moment (L0)", variant(LATERAL, "L0")),
     Setting("L2", "lateral, core free to roll (L2)", variant(LATERAL, "L2")),
     Setting("L2-mirrored", "L2, its mirror image", variant(variant(LATERAL, "L2"), "mirrored")),
     Setting("pinned", "lateral, held sideways at B", variant(LATERAL, "pinned"), FEW),
     Setting("still", "lateral, no air, no friction, 2 mN", STILL, FEW),
-    Setting(
-        "half-elements", "lateral, elements half as long", replace(LATERAL, elements=2 * LATERAL.elements), many=True
-    ),
-    Setting("half-steps", "lateral, steps half as long", replace(LATERAL, dt=0.5 * LATERAL.dt), many=True),
-    Setting("twice-penalty", "lateral, penalty twice as large", replace(LATERAL, law=TWICE), many=True),
+    Setting("half-elements", "lateral, elements half as long", replace(LATERAL, elements=2 * LATERAL.elements)),
+    Setting("half-steps", "lateral, steps half as long", replace(LATERAL, dt=0.5 * LATERAL.dt)),
+    Setting("twice-penalty", "lateral, penalty twice as large", replace(LATERAL, law=TWICE)),
 )
 
 
@@ -118,9 +114,9 @@ class GrooveEnsemble:
 
 
 def small(scenario: Scenario) -> Scenario:
-    """Fewer fibres on longer elements in longer steps, until they lie in the groove."""
+    """Fewer fibres on longer elements, until they lie in the groove."""
     elements, t_end = scenario.elements // COARSER, min(scenario.t_end, GATHERED)
-    return replace(scenario, fibres=SMALL, elements=elements, dt=SLOWER * scenario.dt, t_end=t_end)
+    return replace(scenario, fibres=SMALL, elements=elements, t_end=t_end)
 
 
 def setting(name: str) -> Setting:

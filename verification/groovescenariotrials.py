@@ -14,15 +14,13 @@ from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting
 from verification.groovescenariobeside import brief, by_both, with_image
 from verification.ledger import Unit
 
-__all__ = ["ACCEPTANCE", "BY_NAME", "PAPER", "SCENARIOS", "listing", "names", "units"]
+__all__ = ["ACCEPTANCE", "PAPER", "SCENARIOS", "listing", "names", "units"]
 
 # Chosen like families; an ensemble as "groove-scenarios:NAME".
 SCENARIOS, PAPER = "groove-scenarios", "groove-paper"
 BESIDE, IMAGE = f"{SCENARIOS}:models", f"{SCENARIOS}:image"
 # Ensembles of the whole bundle on the paper's elements to its end: hours, so only where it is asked for by name.
 ACCEPTANCE = "groove-acceptance"
-# What few runs tell nothing of: small, it is done where it is asked for by its own name.
-BY_NAME = tuple(f"{SCENARIOS}:{one.name}" for one in SETTINGS if one.many)
 # Of the paper: with air its fibres fall onto the walls; without it nothing moves, of which fewer tell as much.
 STEPS, STILL_STEPS, QUICK_STEPS = 400, 100, 3
 # Until fibres touch one another, and a little on; states are stored as often as that takes to see [s].
@@ -65,8 +63,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
         Units in the order of the report.
     """
     for one in SETTINGS:
-        named = asked_as(one) in asked or (SCENARIOS in asked and not one.many)
-        if named and (one.quick or not quick):
+        if {SCENARIOS, asked_as(one)} & set(asked) and (one.quick or not quick):
             yield _ensemble(one.hurried() if quick else one.small())
     yield from _alone(set(asked), quick)
     for one in SETTINGS if ACCEPTANCE in asked else ():
@@ -80,16 +77,15 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
 def _ensemble(one: Setting) -> Unit:
     """All its runs."""
     posed = one.scenario
-    key = ("ensemble", one.name, one.seeds, posed.fibres, posed.elements, posed.dt, posed.t_end)
+    key = ("ensemble", one.name, one.seeds, posed.fibres, posed.elements, posed.t_end)
     return Unit("groove scenario", f"Bundles: {one.words}", key, partial(gathered, one))
 
 
 def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:
     """Single bundles: by both models, and beside their images."""
     for scenario in (LATERAL, INTERMEDIATE) if {SCENARIOS, BESIDE} & asked else ():
-        # On the paper's elements in its steps, as the difference that is allowed is that of these.
-        whole = replace(small(scenario), elements=scenario.elements, dt=scenario.dt)
-        yield _by_both(brief(scenario) if quick else whole)
+        # On the paper's elements, as the difference that is allowed is that of these.
+        yield _by_both(brief(scenario) if quick else replace(small(scenario), elements=scenario.elements))
     for model in MODELS if {SCENARIOS, IMAGE} & asked else ():
         posed = brief(LATERAL) if quick else _short(small(LATERAL))
         words = f"A bundle and its mirror image: {model}"

@@ -32,8 +32,8 @@ __all__ = ["FEWEST", "HARD", "HOURS", "LARGEST", "listing", "names", "units"]
 
 # Chosen like families; a single hard case as "hard:NAME".
 HARD, LARGEST, FEWEST = "hard", "largest-load", "fewest-steps"
-# What takes hours, and what tells nothing without them: done where it is asked for, never because everything is.
-HOURS = (bundletrials.LONG, groovescenariotrials.ACCEPTANCE, *groovescenariotrials.BY_NAME)
+# Take hours: done where they are asked for, never because everything is.
+HOURS = (bundletrials.LONG, groovescenariotrials.ACCEPTANCE)
 
 
 def names() -> tuple[str, ...]:

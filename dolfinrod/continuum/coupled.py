@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from dolfinrod.continuum.pairs import Pairs
     from dolfinrod.continuum.problem import Problem
 
-
 __all__ = ["CoupledLU", "coupled", "linear_solver"]
 
 # Part of the forces not foreseen that GMRES leaves, far below the ratios of increments with which factors are kept; and

@@ -12,7 +12,6 @@ from verification.groovescenario import SEEDS, SETTINGS, GrooveEnsemble, gathere
 from verification.groovescenariobeside import brief, by_both, with_image
 from verification.groovescenarioclaims import judged, with_claims
 from verification.ledger import decode, encode
-from verification.plan import selected
 from verification.report import groovescenario, groovescenariopaper
 from verification.report.groovekept import bundles_kept
 from verification.report.misses import sentence
@@ -96,18 +95,6 @@ def test_every_setting_is_another_scenario_and_can_be_asked_for():
         units = list(groovescenariotrials.units(names, quick=quick))
         assert len({unit.parameters for unit in units}) == len(units)
     assert len(list(groovescenariotrials.listing(names))) == len(names)
-
-
-def test_what_few_small_bundles_tell_nothing_of_is_done_by_its_own_name_or_whole():
-    def ensembles(*names: str) -> list[str]:
-        found = groovescenariotrials.units(selected(names), quick=False)
-        return [unit.parameters[1] for unit in found if unit.parameters[0] == "ensemble"]
-
-    many = [one.name for one in SETTINGS if one.many]
-    assert {"half-elements", "half-steps", "twice-penalty"} <= set(many)
-    assert ensembles() == ensembles("groove-scenarios") == [one.name for one in SETTINGS if not one.many]
-    assert ensembles("groove-scenarios:half-steps") == ["half-steps"]
-    assert ensembles("groove-acceptance") == [one.name for one in SETTINGS]
 
 
 def test_markdown_holds_every_claim_its_verdict_and_the_means_it_rests_on():

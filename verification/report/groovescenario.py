@@ -28,10 +28,9 @@ WORDS = (
     "friction and a central cylinder, many times with other noise of 1 µm at the start: contact is chaotic, so that "
     "means with intervals of 95 % are what can be compared, single runs are not. Groove, air, ends and core are "
     "assumptions; nothing is fitted to the measured yarns. Twist is that of crossings, half a turn each, which the "
-    "angles at the ends do not bias. A report takes three bundles of three fibres on elements four times as long in "
-    "steps twice as long for 1.5 ms, a quick one two of two for a blink; ./run report groove-acceptance takes ten of "
-    "five on those of the paper until they are at rest, and those of which only many tell anything: refined ones, and "
-    "friction without a moment."
+    "angles at the ends do not bias. A report takes three bundles of three fibres on elements four times as long for "
+    "1.5 ms, a quick one two of two for a blink; ./run report groove-acceptance takes ten of five on those of the "
+    "paper until they are at rest."
 )
 NUMBER, PROSE = "number", "prose"
 KINDS = (("continuum", "p3", False), ("discrete", "chord", True))
