@@ -111,13 +111,14 @@ def _beside(by: Mapping[str, GrooveEnsemble]) -> GrooveClaim:
 
 
 def _less(a: Sequence[float], b: Sequence[float]) -> tuple[Interval, str]:
-    """Difference of means and what Welch's test says of it, which needs some scatter."""
+    """Difference of means and what Welch's test says of it, which needs some scatter and more than a few runs."""
     if len({*a}) == len({*b}) == 1:
         exact = a[0] - b[0]
         return Interval(exact, exact, exact), "no scatter, no test"
     test = welch(a, b)
     assert test.difference is not None
-    return test.difference, f"Welch {test.printed_p}"
+    enough = min(len(a), len(b)) >= SEEDS
+    return test.difference, f"Welch {test.printed_p}" if enough else f"no test of fewer than {SEEDS} runs"
 
 
 def _edge(one: GrooveEnsemble) -> GrooveClaim:

@@ -75,6 +75,8 @@ def test_few_runs_tell_nothing():
     few = [made(name, 3, about=50.0) for name in ("lateral", "intermediate", "mirrored", "half-elements")]
     assert not any(claim.asked for claim in judged(few))
     assert all(claim.holds for claim in judged(few))
+    assert not any("Welch" in claim.found for claim in judged(few))
+    assert sum("Welch" in claim.found for claim in judged(tuple(as_hoped().values()))) == 2
     assert judged([made("lateral", 2), made("intermediate", 2)])
     assert judged([]) == ()
 
