@@ -1,4 +1,4 @@
-"""Units of work on several cores: processes that take the next one until none is left.
+"""Units of work on several cores: processes that take the next ones until none is left.
 
 A unit that none of them finishes is left to the caller, who then sees why; so is one that must run alone.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 import multiprocessing
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from itertools import groupby
 from multiprocessing.connection import Connection, wait
 from typing import TYPE_CHECKING
 
@@ -64,17 +65,25 @@ def _work(plan: Callable[[], Sequence[Unit]], ledger: Ledger, taken: Synchronize
     """Take units and keep what they find; Ctrl-C ends it."""
     with suppress(KeyboardInterrupt), Interrupt() as interrupt:
         units = plan()
+        several = _in_a_row(units)
         while True:
             with taken.get_lock():
-                k = taken.value
+                turn = taken.value
                 taken.value += 1
-            if k >= len(units):
+            if turn >= len(several):
                 return
-            rows = ledger.recall(units[k])
-            if rows is None and units[k].alone:
-                continue
-            if rows is None:
-                found, seconds = units[k].done()
-                interrupt.check()
-                ledger.keep(units[k], found, seconds)
-            writer.send((k, rows is not None))
+            for k in several[turn]:
+                rows = ledger.recall(units[k])
+                if rows is None and units[k].alone:
+                    continue
+                if rows is None:
+                    found, seconds = units[k].done()
+                    interrupt.check()
+                    ledger.keep(units[k], found, seconds)
+                writer.send((k, rows is not None))
+
+
+def _in_a_row(units: Sequence[Unit]) -> list[list[int]]:
+    """Places of units that are taken together: those in a row that rest on the same solution, all others singly."""
+    names = [unit.rests_on or str(k) for k, unit in enumerate(units)]
+    return [list(places) for _, places in groupby(range(len(units)), key=lambda k: names[k])]

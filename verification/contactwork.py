@@ -71,7 +71,8 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
             for base, over in sweeps(case):
                 words = f"{case.title}: {base.words(case)} over {over}"
                 key = (case.name, base.words(case), base.mesh, over)
-                yield Unit("groove", words, key, partial(sweep, case, base, over))
+                swept = partial(sweep, case, base, over)
+                yield Unit("groove", words, key, swept, rests_on=f"{case.name}, not {base.model}")
     for case in CASES[:1] if quick else CASES:
         if {GROOVE, case.name} & set(asked):
             yield Unit("side by side", f"{case.title}: side by side", (case.name,), partial(side_by_side, case))
@@ -85,7 +86,8 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
         for model, scheme in pairs(hard_case):
             way = "" if scheme is None else type(scheme).__name__
             work = partial(hard_contact, hard_case, model, scheme)
-            yield Unit("hard contact", f"{hard_case.title}: {model} {way}".rstrip(), (hard_case.name, model, way), work)
+            title, shared = f"{hard_case.title}: {model} {way}".rstrip(), f"{hard_case.name}, not {model}"
+            yield Unit("hard contact", title, (hard_case.name, model, way), work, rests_on=shared)
 
 
 def _hard(asked: tuple[str, ...]) -> tuple[HardContact, ...]:

@@ -35,6 +35,7 @@ class Setting:
         scenario: But for its seed.
         seeds: How many.
         quick: Whether a quick run has it.
+        tells: Whether a few small bundles tell anything of it, so that a report has them.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Setting:
     scenario: Scenario = field(repr=False)
     seeds: int = SEEDS
     quick: bool = False
+    tells: bool = True
 
     def small(self) -> Setting:
         """The same for a report, which is to take less than half an hour."""
@@ -57,14 +59,19 @@ SETTINGS = (
     Setting("lateral", "lateral", LATERAL, quick=True),
     Setting("intermediate", "intermediate", INTERMEDIATE, quick=True),
     Setting("mirrored", "lateral, its mirror image", variant(LATERAL, "mirrored"), quick=True),
-    Setting("L0", "lateral, friction without a moment (L0)", variant(LATERAL, "L0")),
+    Setting("L0", "lateral, friction without a moment (L0)", variant(LATERAL, "L0"), tells=False),
     Setting("L2", "lateral, core free to roll (L2)", variant(LATERAL, "L2")),
     Setting("L2-mirrored", "L2, its mirror image", variant(variant(LATERAL, "L2"), "mirrored")),
     Setting("pinned", "lateral, held sideways at B", variant(LATERAL, "pinned"), FEW),
     Setting("still", "lateral, no air, no friction, 2 mN", STILL, FEW),
-    Setting("half-elements", "lateral, elements half as long", replace(LATERAL, elements=2 * LATERAL.elements)),
-    Setting("half-steps", "lateral, steps half as long", replace(LATERAL, dt=0.5 * LATERAL.dt)),
-    Setting("twice-penalty", "lateral, penalty twice as large", replace(LATERAL, law=TWICE)),
+    Setting(
+        "half-elements",
+        "lateral, elements half as long",
+        replace(LATERAL, elements=2 * LATERAL.elements),
+        tells=False,
+    ),
+    Setting("half-steps", "lateral, steps half as long", replace(LATERAL, dt=0.5 * LATERAL.dt), tells=False),
+    Setting("twice-penalty", "lateral, penalty twice as large", replace(LATERAL, law=TWICE), tells=False),
 )
 
 

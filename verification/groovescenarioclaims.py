@@ -10,6 +10,7 @@ from dolfinrod.groove.statistics import of_mean, welch
 from verification.groovepaper import PaperRun
 from verification.groovescenario import SEEDS, GrooveEnsemble
 from verification.groovescenariobeside import GrooveImage, GrooveModels
+from verification.groovescenariosteps import GrooveSteps
 
 __all__ = ["Gathered", "GrooveClaim", "judged", "with_claims"]
 
@@ -41,7 +42,7 @@ class GrooveClaim:
         return f"Bundles in the groove: {self.title}: {self.found}"
 
 
-Gathered = GrooveEnsemble | GrooveClaim | GrooveImage | GrooveModels | PaperRun
+Gathered = GrooveEnsemble | GrooveClaim | GrooveImage | GrooveModels | GrooveSteps | PaperRun
 
 
 def with_claims(rows: Sequence[Gathered]) -> tuple[Gathered, ...]:

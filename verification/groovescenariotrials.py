@@ -12,24 +12,28 @@ from dolfinrod.groove.scenario import MODELS
 from verification.groovepaper import as_printed
 from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, gathered, small
 from verification.groovescenariobeside import brief, by_both, with_image
+from verification.groovescenariosteps import in_shorter_steps
 from verification.ledger import Unit
 
 __all__ = ["ACCEPTANCE", "PAPER", "SCENARIOS", "listing", "names", "units"]
 
 # Chosen like families; an ensemble as "groove-scenarios:NAME".
 SCENARIOS, PAPER = "groove-scenarios", "groove-paper"
-BESIDE, IMAGE = f"{SCENARIOS}:models", f"{SCENARIOS}:image"
+BESIDE, IMAGE, STEPPED = f"{SCENARIOS}:models", f"{SCENARIOS}:image", f"{SCENARIOS}:steps"
 # Ensembles of the whole bundle on the paper's elements to its end: hours, so only where it is asked for by name.
 ACCEPTANCE = "groove-acceptance"
 # Of the paper: with air its fibres fall onto the walls; without it nothing moves, of which fewer tell as much.
 STEPS, STILL_STEPS, QUICK_STEPS = 400, 100, 3
 # Until fibres touch one another, and a little on; states are stored as often as that takes to see [s].
 UNTIL, STORED = 1e-3, 1e-5
+# Of a bundle in ever shorter steps: until the first fibre has struck the core and a little on, and how often it is
+# looked at [s].
+STRUCK, LOOKED = 0.9e-3, 2e-5
 
 
 def names() -> tuple[str, ...]:
     """Whatever may be asked for by name."""
-    return (SCENARIOS, *map(asked_as, SETTINGS), BESIDE, IMAGE, ACCEPTANCE, PAPER)
+    return (SCENARIOS, *map(asked_as, SETTINGS), BESIDE, IMAGE, STEPPED, ACCEPTANCE, PAPER)
 
 
 def asked_as(one: Setting) -> str:
@@ -42,6 +46,7 @@ def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     wanted = set(asked)
     members = {asked_as(one): one.words for one in SETTINGS}
     members |= {BESIDE: "one bundle by both models", IMAGE: "a bundle and its mirror image"}
+    members[STEPPED] = "a bundle in ever shorter steps"
     chosen = {name: words for name, words in members.items() if {SCENARIOS, name} & wanted}
     if chosen:
         yield SCENARIOS, "bundles in the groove: what they should show"
@@ -63,7 +68,8 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
         Units in the order of the report.
     """
     for one in SETTINGS:
-        if {SCENARIOS, asked_as(one)} & set(asked) and (one.quick or not quick):
+        chosen = asked_as(one) in asked or (SCENARIOS in asked and one.tells)
+        if chosen and (one.quick or not quick):
             yield _ensemble(one.hurried() if quick else one.small())
     yield from _alone(set(asked), quick)
     for one in SETTINGS if ACCEPTANCE in asked else ():
@@ -92,6 +98,10 @@ def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:
         yield Unit(
             "groove scenario", words, ("image", model, posed.fibres, posed.t_end), partial(with_image, posed, model)
         )
+    if {SCENARIOS, STEPPED} & asked and not quick:
+        posed, model = replace(small(LATERAL), t_end=STRUCK, output=LOOKED), "discrete"
+        words, key = f"A bundle in ever shorter steps: {model}", ("steps", model, posed.fibres, posed.t_end)
+        yield Unit("groove scenario", words, key, partial(in_shorter_steps, posed, model))
 
 
 def _by_both(posed: Scenario) -> Unit:

@@ -33,6 +33,7 @@ from verification.groovepaper import PaperRun
 from verification.grooveprofile import GrooveProfile, SideBySide
 from verification.groovescenario import GrooveEnsemble
 from verification.groovescenariobeside import GrooveImage, GrooveModels
+from verification.groovescenariosteps import GrooveSteps
 from verification.growth import Cost, Growth
 from verification.hard import HardRow
 from verification.hardcontact import ContactRow
@@ -62,7 +63,7 @@ Trial = Bracket | EigenStudy | HardRow | OneStep | OneStepLoads | Steps
 Moved = BundleRanks | BundleStudy | DriftStudy | FrequencyStudy | MotionStudy | Pace | PaperFibre | RankRow | TopStudy
 Shared = EnsembleScaling | Scaling
 Touched = ContactCell | ContactRow | ContactStudy | GrooveSweep | SideBySide
-Gathered = GrooveEnsemble | GrooveImage | GrooveModels | PaperRun
+Gathered = GrooveEnsemble | GrooveImage | GrooveModels | GrooveSteps | PaperRun
 Other = Cell | Check | Contender | ExplicitLimit | LawRow | MotionRow | Shape | Speed | Study | TwistStudy
 Row = Trial | Moved | Shared | Touched | Gathered | Cost | Other
 PARTS = (
@@ -101,6 +102,8 @@ class Unit:
         parameters: What sets it apart from others of its topic; strings and numbers.
         work: Solves it; returns a row, or rows, for the report.
         alone: Whether it compares times on all cores, so that nothing else may run beside it.
+        rests_on: A solution that it is held against, by a name: units in a row that share it are left to one process,
+            which then solves it once; empty: none that others share.
     """
 
     topic: str
@@ -108,6 +111,7 @@ class Unit:
     parameters: tuple[str | int | float, ...]
     work: Callable[[], Row | tuple[Row, ...]]
     alone: bool = False
+    rests_on: str = ""
 
     def done(self) -> tuple[tuple[Row, ...], float]:
         """Do it: rows, and seconds by the clock."""

@@ -73,7 +73,9 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
         for model, scheme in SOLVERS:
             kind = type(scheme).__name__
             work = partial(hard_motion, case, model, scheme)
-            yield Unit("hard motion", f"{case.title}: {model}, {kind}", (case.name, model, kind), work)
+            yield Unit(
+                "hard motion", f"{case.title}: {model}, {kind}", (case.name, model, kind), work, rests_on=case.name
+            )
 
 
 def _chosen(asked: tuple[str, ...]) -> tuple[HardMotion, ...]:

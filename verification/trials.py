@@ -171,7 +171,8 @@ def _hard(asked: tuple[str, ...], quick: bool) -> Iterator[Unit]:
     kept = {case.name for case in members}
     for case, family in pairs():
         if case.name in kept:
-            yield Unit("hard", f"{case.title}: {family}", (case.name, family), partial(hard, case, family))
+            work = partial(hard, case, family)
+            yield Unit("hard", f"{case.title}: {family}", (case.name, family), work, rests_on=case.name)
 
 
 def _costly(case: HardCase) -> bool:

@@ -22,6 +22,11 @@ def process() -> Cold:
     return Cold("process", float(getpid()), 0.0)
 
 
+def sharing() -> tuple[Unit, ...]:
+    """Eight units, four of which rest on one solution."""
+    return tuple(Unit("cost", f"unit {k}", (k,), process, rests_on="it" if 2 <= k < 6 else "") for k in range(8))
+
+
 def plan() -> tuple[Unit, ...]:
     """Four units, of which one needs all cores."""
     return tuple(Unit("cost", f"unit {k}", (k,), process, alone=k == 1) for k in range(4))
@@ -37,3 +42,13 @@ def test_what_compares_times_on_all_cores_waits_until_the_others_are_done(tmp_pa
     rows = work_off(plan(), ledger, lambda k, _, recalled: left.append(k) if not recalled else None)
     assert left == [1]
     assert [row.clock == getpid() for row in rows["cost"]] == [False, True, False, False]
+
+
+@pytest.mark.serial
+def test_units_that_rest_on_one_solution_are_done_by_one_process(tmp_path: Path) -> None:
+    ledger = Ledger(tmp_path, this_machine())
+    at_once(sharing, ledger, 2, lambda *_: None)
+    by = [row.clock for row in work_off(sharing(), ledger)["cost"]]
+    assert len(set(by[2:6])) == 1
+    assert len(by) == 8
+    assert getpid() not in by

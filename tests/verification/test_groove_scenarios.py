@@ -6,14 +6,18 @@ from dataclasses import replace
 
 import pytest
 
+from dolfinrod.groove.scenario import MODELS
 from verification import groovescenariotrials
 from verification.groovepaper import as_printed
-from verification.groovescenario import SEEDS, SETTINGS, GrooveEnsemble, gathered, setting
+from verification.groovescenario import LATERAL, SEEDS, SETTINGS, GrooveEnsemble, gathered, setting
 from verification.groovescenariobeside import brief, by_both, with_image
 from verification.groovescenarioclaims import judged, with_claims
+from verification.groovescenariosteps import NUDGE, GrooveSteps, in_shorter_steps
+from verification.groovescenariotrials import ACCEPTANCE, SCENARIOS
 from verification.ledger import decode, encode
 from verification.report import groovescenario, groovescenariopaper
 from verification.report.groovekept import bundles_kept
+from verification.report.groovescenariosteps import stepped
 from verification.report.misses import sentence
 
 NAMES = ("lateral", "intermediate", "mirrored", "L2", "L2-mirrored", "pinned", "still", "half-elements")
@@ -133,3 +137,47 @@ def test_a_blink_of_each_goes_to_the_ledger_and_onto_the_page():
     for words in ("(a) intermediate", "Ensembles", "Mirror images", "both models", "N/m², m", "2 of 2"):
         assert words in page
     assert groovescenario.scenarios(()) == groovescenariopaper.paper(()) == ""
+
+
+STEPPED = GrooveSteps(
+    title="two fibres",
+    model="discrete",
+    steps=(1e-6, 5e-7, 2.5e-7),
+    t=(1e-4, 2e-4, 3e-4),
+    halved=(4e-8, 1.6e-6, 8e-5),
+    quartered=(2e-8, 8e-7, 6e-5),
+    nudged=(1e-12, 1e-9, 1e-7),
+    noise=1e-6,
+    rebound=(0.3, 0.5, 0.7),
+)
+
+
+def test_paths_are_trusted_until_they_differ_by_the_noise_and_must_near_one_another_until_then():
+    assert STEPPED.trusted == 1
+    assert STEPPED.order == pytest.approx(1.0)
+    assert STEPPED.holds
+    for lost in (replace(STEPPED, quartered=(2e-8, 1e-6, 6e-5)), replace(STEPPED, quartered=(2e-5, 3e-5, 6e-5))):
+        assert not lost.holds
+        assert "0.9 asked" in sentence(lost)
+    words = stepped(STEPPED)
+    assert "Until 0.20 ms" in words
+    assert "by 100 times as much" in words
+    assert "0.50 in steps of 0.5 µs" in words
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_before_anything_is_struck_paths_near_one_another_and_a_strike_gives_back_more_in_shorter_steps(model):
+    found = in_shorter_steps(replace(LATERAL, fibres=1, elements=4, dt=4e-6, t_end=4e-4), model)
+    assert found.holds
+    assert found.trusted == len(found.t) - 1
+    assert found.nudged[-1] < 0.1 * NUDGE
+    assert found.rebound[0] < found.rebound[1] < found.rebound[2] < 1.0
+    assert decode(encode((found,))) == (found,)
+
+
+def test_a_report_leaves_to_whole_bundles_what_few_small_ones_tell_nothing_of():
+    asked = {one: list(groovescenariotrials.units((one,), quick=False)) for one in (SCENARIOS, ACCEPTANCE)}
+    ensembles = {one: {u.parameters[1] for u in us if u.parameters[0] == "ensemble"} for one, us in asked.items()}
+    assert ensembles[ACCEPTANCE] == {one.name for one in SETTINGS}
+    assert ensembles[ACCEPTANCE] - ensembles[SCENARIOS] == {"L0", "half-elements", "half-steps", "twice-penalty"}
+    assert len(list(groovescenariotrials.units((f"{SCENARIOS}:half-steps",), quick=False))) == 1

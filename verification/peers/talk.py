@@ -31,7 +31,7 @@ __all__ = ["answers", "main"]
 # Numbers of load steps that find the equilibrium, of which the quickest counts.
 FEWEST = 2
 # A solve of so many seconds warms itself up: it is not repeated.
-LONG = 5.0
+LONG = 1.0
 Build = Callable[[dict[str, Any], dict[str, Any]], Callable[[], list[list[float]]]]
 
 

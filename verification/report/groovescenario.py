@@ -10,8 +10,10 @@ from verification.groovepaper import PaperRun
 from verification.groovescenario import GrooveEnsemble
 from verification.groovescenariobeside import AGREES, MIRRORED, GrooveImage, GrooveModels
 from verification.groovescenarioclaims import GrooveClaim
+from verification.groovescenariosteps import GrooveSteps
 from verification.report.groove import figure as panel
 from verification.report.groovescenariopaper import rows_of
+from verification.report.groovescenariosteps import stepped
 from verification.report.lines import Trace, linear
 from verification.report.tables import Column, Mark, Row, Swatch, count, figure, scientific, table
 
@@ -30,7 +32,8 @@ WORDS = (
     "assumptions; nothing is fitted to the measured yarns. Twist is that of crossings, half a turn each, which the "
     "angles at the ends do not bias. A report takes three bundles of three fibres on elements four times as long for "
     "1.5 ms, a quick one two of two for a blink; ./run report groove-acceptance takes ten of five on those of the "
-    "paper until they are at rest."
+    "paper until they are at rest, and again with half the elements' length, half the step and twice the penalty, of "
+    "which three small ones tell nothing."
 )
 NUMBER, PROSE = "number", "prose"
 KINDS = (("continuum", "p3", False), ("discrete", "chord", True))
@@ -54,6 +57,7 @@ def scenarios(found: Sequence[Gathered]) -> str:
         parts += ["<h3>Ensembles</h3>", _ensembles(ensembles)]
     if images := [row for row in found if isinstance(row, GrooveImage)]:
         parts += ["<h3>Mirror images, built and solved</h3>", _images(images)]
+    parts += [f"<h3>In ever shorter steps</h3>{stepped(row)}" for row in found if isinstance(row, GrooveSteps)]
     models = [row for row in found if isinstance(row, GrooveModels)]
     parts += [f"<h3>{escape(row.title)}: both models</h3>{_models(row)}" for row in models]
     return "\n".join(parts)
