@@ -12,7 +12,7 @@ from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from time import perf_counter, process_time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from dolfinrod.scene import Spatial
 from verification.bundlescene import bundle
@@ -42,14 +42,25 @@ class Watch:
     def __init__(self) -> None:
         self.seconds: dict[str, float] = {}
         self._running: list[str] = []
+        self._replaced: list[tuple[Any, str, Any]] = []
         self._since = process_time()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Count no more."""
+        for owner, method, call in reversed(self._replaced):
+            setattr(owner, method, call)
 
     def time(self, name: str, module: str, kind: str, methods: str) -> None:
         """Let calls of methods of a class count under a name from now on."""
         owner = getattr(import_module(module), kind)
         self.seconds.setdefault(name, 0.0)
         for method in methods.split():
-            setattr(owner, method, self._timed(name, getattr(owner, method)))
+            call = getattr(owner, method)
+            self._replaced.append((owner, method, call))
+            setattr(owner, method, self._timed(name, call))
 
     def _timed(self, name: str, call: Callable[..., Any]) -> Callable[..., Any]:
         def timed(*args: Any, **options: Any) -> Any:

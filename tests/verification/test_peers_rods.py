@@ -11,19 +11,25 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from discrete.equilibrium import Equilibrium
+from dolfinrod.continuum.newton import Newton
+from dolfinrod.scene import Dynamic, Midpoint
 from verification.case import SKEW
 from verification.peers import rods
 from verification.peers.contest import Attempt, Contender, Measured, Taker
 from verification.peers.conversation import Refused
 from verification.peers.environment import installed
 from verification.peers.onestep import LOADS, ONCE, largest
+from verification.peers.parts import parts_of
 from verification.peers.rodothers import LADDER, ROD_OTHERS, attempt, rod_others_measured, together
 from verification.peers.rodours import DISCRETE, ROD_OURS, measured, posed
 from verification.peers.rodshape import equal, nodes
 from verification.peers.standing import aims, standing, standings
+from verification.peers.swing import scene as swing_scene
 from verification.references.bvp import solve
 from verification.references.scenes import rod_problem
 from verification.report import peers, race
+from verification.stepper import ContinuumStepper, DiscreteStepper
 
 pytestmark = pytest.mark.serial
 
@@ -129,7 +135,23 @@ def test_an_aim_that_is_missed_says_what_costs_the_time():
     assert aim.profile == "steps: 160 of 2 ms against 200 of 0.05 ms, so what a step costs makes the difference"
     assert steps.profile.endswith("so how many steps it takes makes the difference")
     assert aim.profile in peers.asked([aim])
+    (attempt,) = dear.attempts
+    taken_apart = replace(attempt, found=replace(attempt.found, parts=(("assembly", 0.7), ("the rest", 0.3))))
+    (told,) = aims((replace(dear, attempts=(taken_apart,)), other))
+    assert told.profile == f"{aim.profile}; of ours 70 % assembly, 30 % the rest"
     assert "steps:" not in peers.asked([replace(aim, ahead=1.0)])
+
+
+@pytest.mark.parametrize("stepper", [ContinuumStepper(Midpoint(), 1, 2), DiscreteStepper(4)])
+def test_seconds_of_our_models_are_taken_apart_and_nothing_stays_watched(stepper):
+    watched = {(kind, method): getattr(kind, method) for kind, method in ((Newton, "_run"), (Equilibrium, "_iterate"))}
+    posed = swing_scene("sheared", Dynamic(t_end=0.05, dt=0.01))
+    parts = parts_of(stepper.family, lambda: stepper.solve(posed))
+    assert sum(part for _, part in parts) == pytest.approx(1.0)
+    assert all(part > 0.0 for _, part in parts)
+    assert [part for _, part in parts] == sorted((part for _, part in parts), reverse=True)
+    assert "residual and tangent of the elements" in dict(parts)
+    assert all(getattr(kind, method) is call for (kind, method), call in watched.items())
 
 
 def test_plane_elements_are_not_compared_in_space():

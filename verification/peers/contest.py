@@ -29,6 +29,7 @@ class Measured:
         once: What is spent once a process: imports, or the making of compiled code [s].
         steps: Of the load, or in time, those of failed attempts left out; None where the solver does not say.
         version: Of the solver.
+        parts: Of one of our models, what these seconds are spent on, in words, and which part of them it is.
     """
 
     error: float
@@ -38,6 +39,7 @@ class Measured:
     once: float
     steps: int | None
     version: str
+    parts: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from dolfinrod.output import versions
 from dolfinrod.scene import Dynamic, ImplicitEuler, Midpoint
 from verification.peers.clock import quickest
 from verification.peers.contest import Contender, Measured, Taker, contest
+from verification.peers.parts import parts_of
 from verification.peers.swing import SWING, scene, solution, tips
 from verification.stepper import ContinuumStepper, DiscreteStepper, Stepper
 
@@ -126,4 +127,5 @@ def measured(assumes: str, setting: Setting) -> Measured:
         once=first.statistics.seconds_compile,
         steps=first.statistics.load_steps,
         version=f"dolfinrod {versions()['dolfinrod']}",
+        parts=parts_of(setting.stepper.family, lambda: setting.stepper.solve(posed)),
     )

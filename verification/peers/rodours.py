@@ -18,6 +18,7 @@ from verification.peers.alone import cold
 from verification.peers.clock import quickest
 from verification.peers.contest import Attempt, Contender, Measured, Taker, contest
 from verification.peers.conversation import Refused
+from verification.peers.parts import parts_of
 from verification.peers.rodothers import BUDGET, HOW, LADDER, QUICK_BUDGET, QUICK_REPEATS, REPEATS, SOUGHT
 
 if TYPE_CHECKING:
@@ -132,6 +133,7 @@ def measured(problem: RodProblem, assumes: str, mesh: tuple[Model, int], effort:
         once=first.statistics.seconds_compile,
         steps=first.statistics.load_steps,
         version=f"dolfinrod {versions()['dolfinrod']}",
+        parts=parts_of(model.family, solve),
     )
 
 
