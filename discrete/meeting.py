@@ -15,7 +15,7 @@ from discrete.mass import densities
 from discrete.touched import Booking
 from discrete.unknowns import N_NODE, SPIN, X
 from dolfinrod.scene import Dynamic
-from dolfinrod.scene.meeting import Meeting, Strands
+from dolfinrod.scene.meeting import PASSED, Meeting, Strands
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,11 +29,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["CROSSED", "Encounters"]
+__all__ = ["Encounters"]
 
 # Of the least radius, that rods which touch go in an iteration.
 STRIDE = 0.5
-CROSSED = "a rod went through or leapt past another in one step"
 
 
 class Encounters:
@@ -184,13 +183,15 @@ class Encounters:
         return bool(self._force.any())
 
     @property
-    def pierced(self) -> bool:
-        """Whether the step has led a rod through another, or to where both are squeezed to half of their thickness.
+    def pierced(self) -> str:
+        """What the step has led a rod through, half-way into, or past so far that contact wins energy; empty: nothing.
 
-        Where centrelines meet normals point anywhere, and balance there is none that holds. Nor may it lead past one
-        so far that contact wins energy.
+        Where centrelines meet normals point anywhere, and balance there is none that holds.
         """
-        return any(meeting.pierces() or meeting.leapt(meeting.won()) for meeting in self._meetings)
+        for meeting in self._meetings:
+            if words := meeting.pierces() or (PASSED if meeting.leapt(meeting.won()) else ""):
+                return words
+        return ""
 
     def stored(self) -> float:
         """Energy in penetrations and anchors in the last state that counts, in EI/L."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.contact import Contacts
-from discrete.meeting import CROSSED, Encounters
+from discrete.meeting import Encounters
 from discrete.touched import Booking, Touched
 from discrete.turns import Turns
 from dolfinrod.scene.piercing import PIERCED
@@ -192,7 +192,7 @@ class Surroundings:
         """What the step has led a rod through, in words; empty: nothing."""
         if self.walls is not None and self.walls.pierced:
             return PIERCED
-        return CROSSED if self.others is not None and self.others.pierced else ""
+        return "" if self.others is None else self.others.pierced
 
     def stored(self) -> float:
         """Energy in penetrations and anchors in the last state that counts, in EI/L."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.grip import DEEP, HALF_TURN, MOST_RENEWALS, ROLLED
-from discrete.meeting import CROSSED
 from discrete.step import PiercedError, StepLostError
 
 if TYPE_CHECKING:
@@ -84,8 +83,8 @@ class Walls:
         self.press(x, R.transpose(2, 0, 1))
         if not exact and (self.changed or not self.contacts.settled):
             return False
-        if self.contacts.others is not None and self.contacts.others.pierced:
-            raise PiercedError(CROSSED)
+        if self.contacts.others is not None and (through := self.contacts.others.pierced):
+            raise PiercedError(through)
         if self.contacts.rubbing and step.dt * float(np.abs(step.ω).max()) > HALF_TURN:
             raise StepLostError(ROLLED)
         if self.contacts.renew():

@@ -13,7 +13,6 @@ from dolfinrod.continuum.couples import Couples
 from dolfinrod.continuum.ledger import Ledger
 from dolfinrod.continuum.motion import Motion
 from dolfinrod.continuum.pace import Pace
-from dolfinrod.continuum.pairs import PASSED
 from dolfinrod.continuum.predictor import Predictor
 from dolfinrod.continuum.restart import rates
 from dolfinrod.continuum.stepping import StepFailed
@@ -158,8 +157,8 @@ class March:
             problem.x[:] = self._predictor.guess(t + tried)
             outcome = self.newton.solve()
             self.trajectory.iterations += outcome.iterations
-            if outcome.converged and problem.pairs is not None and problem.pairs.pierced:
-                outcome = replace(outcome, converged=False, reason=PASSED)
+            if outcome.converged and problem.pairs is not None and (through := problem.pairs.pierced):
+                outcome = replace(outcome, converged=False, reason=through)
             if outcome.converged:
                 problem.end_step()
                 if pace.allows(0.0 if self.even else problem.local_error(), tried):

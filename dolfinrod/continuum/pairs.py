@@ -17,6 +17,7 @@ from dolfinrod.continuum.links import Frames, Links
 from dolfinrod.continuum.meetings import led_past, meetings
 from dolfinrod.continuum.met import kept, remembered
 from dolfinrod.continuum.working import working
+from dolfinrod.scene.meeting import PASSED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -29,9 +30,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Memory = tuple[float, Array, list[dict[str, Array]]]
 
-__all__ = ["PASSED", "Pairs"]
-
-PASSED = "a rod went through or leapt past another: the step was too long, or eps_N is too small to keep them apart"
+__all__ = ["Pairs"]
 
 
 class Pairs:
@@ -171,11 +170,12 @@ class Pairs:
         return self._on_any_rank(self._neared)
 
     @property
-    def pierced(self) -> bool:
-        """Whether the step has led a rod through another, or past it so far that contact wins energy."""
+    def pierced(self) -> str:
+        """What the step has led a rod through, into, or past so far that contact wins energy; empty: nothing."""
         self._respond()
-        pierced = self._on_any_rank(any(meeting.pierces() for meeting in self.meetings))
-        return pierced or led_past(self.meetings, self.everywhere)
+        # Of words any comes after none.
+        words = str(self.everywhere.comm.allreduce(max(meeting.pierces() for meeting in self.meetings), op=MPI.MAX))
+        return words or (PASSED if led_past(self.meetings, self.everywhere) else "")
 
     def _on_any_rank(self, mine: bool) -> bool:
         return bool(self._problem.discretization.comm.allreduce(mine, op=MPI.LOR))

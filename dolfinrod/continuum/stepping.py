@@ -16,7 +16,6 @@ import numpy as np
 
 from dolfinrod.continuum.aside import push_aside
 from dolfinrod.continuum.neutral import equilibrium
-from dolfinrod.continuum.pairs import PASSED
 from dolfinrod.continuum.pressed import DIRECT
 from dolfinrod.continuum.stability import Verdict
 from dolfinrod.continuum.stride import EASY, Stride
@@ -177,9 +176,9 @@ class Walk:
         outcome = equilibrium(self.newton, self._phase, last)
         if not outcome.converged:
             return outcome, None, None
-        for touched, through in ((problem.walls, PIERCED), (problem.pairs, PASSED)):
-            if touched is not None and touched.pierced:
-                return replace(outcome, converged=False, reason=through), None, None
+        through = PIERCED if problem.walls is not None and problem.walls.pierced else ""
+        if through := through or ("" if problem.pairs is None else problem.pairs.pierced):
+            return replace(outcome, converged=False, reason=through), None, None
         turn = largest_turn_between_nodes(problem)
         if turn > ALIASED:
             return replace(outcome, converged=False, reason=COARSE.format(turn)), None, None

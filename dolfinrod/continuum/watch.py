@@ -149,7 +149,7 @@ class Parting(Unwatched):
     def returned(self, size: float) -> bool:
         """No increment is to be halved."""
         pairs, stays = self._pairs, size > SHRUNK * self._last
-        beyond = stays and pairs is not None and not pairs.met and pairs.near and pairs.pierced
+        beyond = stays and pairs is not None and not pairs.met and pairs.near and bool(pairs.pierced)
         self.creeping, self._last = self._rounds.returned(size) or beyond or self.creeping, size
         return False
 

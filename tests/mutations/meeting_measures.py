@@ -238,5 +238,5 @@ def passes(_solve: Solve) -> float:
         for aside, through in ((0.0, True), (3.0, False)):
             meeting = meet(x + above(aside, 0.0))
             acting(meeting, x + above(aside, 0.0, -3.0 * APART))
-            found += meeting.pierces() != through
+            found += bool(meeting.pierces()) != through
     return float(found)

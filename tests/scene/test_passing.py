@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import dolfinrod as dr
-from dolfinrod.scene.meeting import Meeting, Strands
+from dolfinrod.scene.meeting import PASSED, Meeting, Strands
+from dolfinrod.scene.meeting.passing import SQUEEZED
 from dolfinrod.scene.rodcontact import RodContact
 from tests.scenes import FLAT, Pose, poses
 
@@ -35,7 +36,7 @@ def pierces(start: tuple[Array, Array], end: tuple[Array, Array], pose: Pose) ->
         meeting = Meeting(RodContact(dr.Penalty(1.0, 0.001)), LINES)
         meeting.place(x_0, 0.0)
         meeting.respond(x, np.zeros_like(x))
-        found.append(meeting.pierces())
+        found.append(bool(meeting.pierces()))
     assert found[0] == found[1]
     return found[0]
 
@@ -102,4 +103,13 @@ def test_a_loop_that_is_pulled_through_itself_is_seen(through):
     meeting = Meeting(RodContact(dr.Penalty(1.0, 0.001)), Strands.smooth([s], [0.015]))
     meeting.place(loop, 0.0)
     meeting.respond(turned, np.zeros_like(loop))
-    assert meeting.pierces() == through
+    assert bool(meeting.pierces()) == through
+
+
+@pytest.mark.parametrize(("depth", "words"), [(0.45, ""), (0.55, SQUEEZED), (2.5, PASSED)])
+def test_half_way_into_another_is_told_from_through_it(depth, words):
+    meeting = Meeting(RodContact(dr.Penalty(1.0, 0.001)), LINES)
+    start, end = (np.concatenate((bar(0.0), bar(0.7, height * TIGHT))) for height in (1.0, 1.0 - depth))
+    meeting.place(start, 0.0)
+    meeting.respond(end, np.zeros_like(end))
+    assert meeting.pierces() == words

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import discrete
 import dolfinrod as dr
 from dolfinrod.scene import SceneError, corners, detect, obstacle
 from dolfinrod.scene.advice import Findings, advice
@@ -63,6 +65,23 @@ def test_a_stiffer_law_is_advised_where_rods_go_through_one_another(motion: dr.S
     assert "a stiffer RodContact.law" in told
     assert "contact that is softer" not in told
     assert "contact that is softer" not in advice(replace(scene, contacts=[]), Findings(0.5))
+
+
+@pytest.mark.parametrize("solve", [partial(dr.solve, elements=2, degree=2), partial(discrete.solve, elements=4)])
+def test_a_law_too_soft_for_what_is_thrown_is_told_as_such(solve: Callable[..., dr.Result]) -> None:
+    fibre = dr.Section.ramie()
+    held = dr.Rod.straight(2e-3, fibre, start=(0.0, 0.0, -1e-3), direction=(0, 0, 1))
+    thrown = dr.Rod.straight(2e-3, fibre, start=(-1e-3, 2.2e-5, 0.0))
+    scene = dr.Scene(
+        [held, thrown],
+        [dr.Clamp("start"), dr.Clamp("end")],
+        contacts=[dr.RodContact(dr.Penalty(1e4))],
+        velocities=[dr.Velocity((0.0, -3.0, 0.0), rod=1)],
+        motion=dr.Dynamic(1e-5, 1e-6),
+    )
+    with pytest.raises(dr.NotConverged, match="half-way into one another, so RodContact.law needs a larger eps_N"):
+        solve(scene)
+    assert solve(replace(scene, contacts=[dr.RodContact(dr.Penalty(1e7))])).t[-1] == pytest.approx(1e-5)
 
 
 @given(table=st.lists(st.floats(0.0, 9.0), min_size=1, max_size=3, unique=True).map(sorted))

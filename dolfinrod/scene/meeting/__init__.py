@@ -2,6 +2,7 @@
 
 from dolfinrod.scene.meeting.coupling import Coupling, Felt, Nodal
 from dolfinrod.scene.meeting.meeting import Meeting
+from dolfinrod.scene.meeting.passing import PASSED
 from dolfinrod.scene.meeting.strands import Strands
 
-__all__ = ["Coupling", "Felt", "Meeting", "Nodal", "Strands"]
+__all__ = ["PASSED", "Coupling", "Felt", "Meeting", "Nodal", "Strands"]

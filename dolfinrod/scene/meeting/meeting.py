@@ -18,9 +18,9 @@ from dolfinrod.scene.meeting.coupling import Coupling, Felt, dealt
 from dolfinrod.scene.meeting.curves import Spans, dot
 from dolfinrod.scene.meeting.leaping import PART, kinetic, work
 from dolfinrod.scene.meeting.neighbours import Neighbours
-from dolfinrod.scene.meeting.passing import passes
+from dolfinrod.scene.meeting.passing import PASSED, SQUEEZED, passes, squeezed
 from dolfinrod.scene.meeting.pressed import Pressed, load
-from dolfinrod.scene.meeting.record import least, record
+from dolfinrod.scene.meeting.record import record
 from dolfinrod.scene.meeting.slipping import Slip, slide
 from dolfinrod.scene.meeting.spots import both, marks, points
 from dolfinrod.scene.meeting.strands import Strands
@@ -187,13 +187,12 @@ class Meeting:
         changes = derivatives(pressed, self._slip, limits, turns=self.turns)
         return Coupling(pressed.facing.nodes[first], pair, self._n, changes, self.turns)
 
-    def pierces(self) -> bool:
-        """Whether a rod has gone through another in the step, or half-way into it: it was too long."""
-        pressed = self._pressed
-        depth = replace(pressed, gap=pressed.gap / (pressed.radius_a + pressed.radius_b))
-        if least(depth, np.zeros(len(pressed.p), dtype=np.intp), 1)[0] < -0.5:
-            return True
-        return passes(self._course_0, self._course, *self._near.swept(self._course_0, self._course))
+    def pierces(self) -> str:
+        """In words, how a rod has gone half-way into another in the step, or through it; empty: none has."""
+        if squeezed(self._pressed):
+            return SQUEEZED
+        swept = self._near.swept(self._course_0, self._course)
+        return PASSED if passes(self._course_0, self._course, *swept) else ""
 
     def won(self) -> Array:
         """What contact has won in a step of backward Euler [J], and how many points leapt, of those looked at here."""

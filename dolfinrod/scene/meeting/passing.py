@@ -1,6 +1,8 @@
-"""Steps so long that a rod has gone through another."""
+"""Steps so long that a rod has gone through another, or half-way into it."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,13 +10,20 @@ from numpy.typing import NDArray
 from dolfinrod.scene.meeting.crossing import meet
 from dolfinrod.scene.meeting.curves import Course, between, dot, travel
 from dolfinrod.scene.meeting.facing import look
+from dolfinrod.scene.meeting.pressed import Pressed
 from dolfinrod.scene.meeting.projection import between_chords
+from dolfinrod.scene.meeting.record import least
 
-__all__ = ["passes"]
+__all__ = ["PASSED", "SQUEEZED", "passes", "squeezed"]
+
+PASSED = "a rod went through or leapt past another in one step, which was too long"
+SQUEEZED = "rods are pressed half-way into one another, so RodContact.law needs a larger eps_N"
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
 
+# Depth over the distance at which surfaces touch, beyond which normals may point anywhere.
+DEEPEST = 0.5
 # Places on a span at which it is looked for on the other side of another.
 LOOKS = 3
 # A span is cut until its pieces are straight to this part of a radius; round-off of a distance against a radius.
@@ -43,6 +52,12 @@ def passes(start: Course, end: Course, a: Integers, b: Integers) -> bool:
     near = square <= within**2
     a, b = a[near], b[near]
     return bool(len(a)) and (_beside(start, end, a, b) or _across(start, end, a, b, sag))
+
+
+def squeezed(pressed: Pressed) -> bool:
+    """Whether any point is half-way into what it touches."""
+    depth = replace(pressed, gap=pressed.gap / (pressed.radius_a + pressed.radius_b))
+    return bool(least(depth, np.zeros(len(pressed.p), dtype=np.intp), 1)[0] < -DEEPEST)
 
 
 def _beside(start: Course, end: Course, a: Integers, b: Integers) -> bool:
