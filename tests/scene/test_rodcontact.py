@@ -79,7 +79,7 @@ def test_a_law_too_soft_for_what_is_thrown_is_told_as_such(solve: Callable[..., 
         velocities=[dr.Velocity((0.0, -3.0, 0.0), rod=1)],
         motion=dr.Dynamic(1e-5, 1e-6),
     )
-    with pytest.raises(dr.NotConverged, match="half-way into one another, so RodContact.law needs a larger eps_N"):
+    with pytest.raises(dr.NotConverged, match=r"half-way into one another, so RodContact\.law needs a larger eps_N"):
         solve(scene)
     assert solve(replace(scene, contacts=[dr.RodContact(dr.Penalty(1e7))])).t[-1] == pytest.approx(1e-5)
 
