@@ -57,7 +57,8 @@ class RollingCore:
     """A rigid cylinder that walls, fibres and air touch: it moves along Y and Z and rolls about X.
 
     An extension of the paper, not its model. It begins on the left flank and rolls into the corner; rolling a way s
-    without slip winds edge fibres, which it carries along, by at most s/(2π radius) turns.
+    without slip winds edge fibres, which it carries along, by at most s/(2π radius) turns. As heavy as it is, fibres
+    that cross between it and a wall need a stiffer `Scenario.law`: variant "L2" has one.
 
     Args:
         radius: 1e-5 to 1e-3 m; 0.08 mm [I].

@@ -17,7 +17,7 @@ __all__ = ["VARIANTS", "variant", "varied"]
 VARIANTS = {
     "L0": "friction as a force alone, core at rest: the paper's",
     "L1": "friction at the surface of the fibres, which it turns",
-    "L2": "the core rolls: an extension",
+    "L2": "the core rolls, on contact as much stiffer as it is heavier than a fibre: an extension",
     "S-leading": "the leading end of the edge fibre is free",
     "S-trailing": "the trailing end of the edge fibre is free",
     "pinned": "fibres held sideways at B, too: net winding cannot change",
@@ -50,9 +50,9 @@ def _changes(scenario: Scenario) -> dict[str, Callable[[], dict[str, Any]]]:
     """Fields that each variant changes, made only where it is asked for: not all can be combined."""
     n, ends = scenario.fibres, scenario.ends
     return {
-        "L0": lambda: {**_rubbing(scenario, "centreline"), "core": FixedCore()},
-        "L1": lambda: {**_rubbing(scenario, "surface"), "core": FixedCore()},
-        "L2": lambda: {**_rubbing(scenario, "surface"), "core": RollingCore()},
+        "L0": lambda: {**_rubbing(scenario, "centreline"), **_around(scenario, FixedCore())},
+        "L1": lambda: {**_rubbing(scenario, "surface"), **_around(scenario, FixedCore())},
+        "L2": lambda: {**_rubbing(scenario, "surface"), **_around(scenario, RollingCore())},
         "S-leading": lambda: {"ends": replace(ends, leading=(*ends.leading, n))},
         "S-trailing": lambda: {"ends": replace(ends, trailing=(*ends.trailing, n))},
         "pinned": lambda: {"ends": replace(ends, exit="held")},
@@ -81,6 +81,15 @@ def varied(scenario: Scenario, name: str, value: Any) -> Scenario:
     if part not in Scenario.__dataclass_fields__ or (inner and inner not in getattr(owner, "__dataclass_fields__", {})):
         raise SceneError(f"must be the name of a parameter, such as ends.tension, got {name!r}", field="parameter")
     return replace(scenario, **{part: replace(owner, **{inner: value}) if inner else value})
+
+
+def _around(scenario: Scenario, core: FixedCore | RollingCore) -> dict[str, Any]:
+    """A core, and a law with which what moves presses in as deep at one speed, v √(m/ε_N), be it a fibre or the core.
+
+    With the law of fibres a core of 52 of them presses two that cross between it and the wall half-way into each other.
+    """
+    was, heavy = (one.fibres if isinstance(one, RollingCore) else 1.0 for one in (scenario.core, core))
+    return {"core": core, "law": scenario.law.softened(was / heavy)}
 
 
 def _rubbing(scenario: Scenario, at: Literal["surface", "centreline"]) -> dict[str, Any]:

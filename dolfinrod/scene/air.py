@@ -62,7 +62,8 @@ class Air:
         if not callable(self.field):
             return np.broadcast_to(np.asarray(self.field), x.shape)
         u = np.asarray(self.field(x, t), dtype=float)
-        if u.shape != x.shape or not np.isfinite(u).all():
+        # Where an iteration that diverges has lost a point, no field is to blame.
+        if u.shape != x.shape or not np.isfinite(u[np.isfinite(x).all(axis=1)]).all():
             raise SceneError(f"must give finite velocities of shape {x.shape}, got {quoted(u)}", field="air.field")
         return u
 

@@ -145,6 +145,10 @@ def test_variants_change_what_they_say():
     assert len(L2.scene().rods) == 6
     assert rolling.section.radius == 0.08e-3
     assert rolling.section.rhoA == pytest.approx(52 * base.bundle.section.rhoA)
+    assert L2.law.eps_N == pytest.approx(52 * base.law.eps_N)
+    assert L2.law.g_0 == base.law.g_0
+    assert variant(L2, "L2") == L2
+    assert variant(L2, "L1") == base
     pinned = [s for s in variant(base, "pinned").scene().supports if isinstance(s, Guide)]
     assert [s.free for s in pinned] == [frozenset({"x", "rx", "ry", "rz"})] * 5
     trailing = variant(base, "S-trailing").scene()

@@ -150,6 +150,13 @@ def test_air_flows_as_it_is_told() -> None:
     np.testing.assert_array_equal(dr.Air(lambda x, t: t * x).velocity(x, 2.0), 2 * x)
     with pytest.raises(SceneError, match=r"^air\.field must give finite velocities of shape \(2, 3\), got"):
         dr.Air(lambda x, _: x[0]).velocity(x, 0.0)
+    with pytest.raises(SceneError, match=r"^air\.field must give finite velocities"):
+        dr.Air(lambda x, _: np.nan * x).velocity(x, 0.0)
+
+
+def test_a_point_that_a_diverging_iteration_has_lost_is_no_fault_of_the_air() -> None:
+    x = np.array([[1.0, 2.0, 3.0], [np.nan, 5.0, 6.0]])
+    np.testing.assert_array_equal(dr.Air(lambda x, _: 2 * x).velocity(x, 0.0), 2 * x)
 
 
 @pytest.mark.parametrize(
