@@ -58,10 +58,10 @@ class Setting:
 SETTINGS = (
     Setting("lateral", "lateral", LATERAL, quick=True),
     Setting("intermediate", "intermediate", INTERMEDIATE, quick=True),
-    Setting("mirrored", "lateral, its mirror image", variant(LATERAL, "mirrored"), quick=True),
+    Setting("mirrored", "lateral, its mirror image", variant(LATERAL, "mirrored"), tells=False),
     Setting("L0", "lateral, friction without a moment (L0)", variant(LATERAL, "L0"), tells=False),
-    Setting("L2", "lateral, core free to roll (L2)", variant(LATERAL, "L2")),
-    Setting("L2-mirrored", "L2, its mirror image", variant(variant(LATERAL, "L2"), "mirrored")),
+    Setting("L2", "lateral, core free to roll (L2)", variant(LATERAL, "L2"), tells=False),
+    Setting("L2-mirrored", "L2, its mirror image", variant(variant(LATERAL, "L2"), "mirrored"), tells=False),
     Setting("pinned", "lateral, held sideways at B", variant(LATERAL, "pinned"), FEW),
     Setting("still", "lateral, no air, no friction, 2 mN", STILL, FEW),
     Setting(

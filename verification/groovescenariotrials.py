@@ -15,7 +15,7 @@ from verification.groovescenariobeside import brief, by_both, with_image
 from verification.groovescenariosteps import in_shorter_steps
 from verification.ledger import Unit
 
-__all__ = ["ACCEPTANCE", "PAPER", "SCENARIOS", "listing", "names", "units"]
+__all__ = ["ACCEPTANCE", "PAPER", "SCENARIOS", "UNTOLD", "listing", "names", "units"]
 
 # Chosen like families; an ensemble as "groove-scenarios:NAME".
 SCENARIOS, PAPER = "groove-scenarios", "groove-paper"
@@ -31,14 +31,18 @@ UNTIL, STORED = 1e-3, 1e-5
 STRUCK, LOOKED = 0.9e-3, 2e-5
 
 
-def names() -> tuple[str, ...]:
-    """Whatever may be asked for by name."""
-    return (SCENARIOS, *map(asked_as, SETTINGS), BESIDE, IMAGE, STEPPED, ACCEPTANCE, PAPER)
-
-
 def asked_as(one: Setting) -> str:
     """Under which an ensemble is asked for."""
     return f"{SCENARIOS}:{one.name}"
+
+
+# Ensembles of which few small bundles tell nothing.
+UNTOLD = tuple(asked_as(one) for one in SETTINGS if not one.tells)
+
+
+def names() -> tuple[str, ...]:
+    """Whatever may be asked for by name."""
+    return (SCENARIOS, *map(asked_as, SETTINGS), BESIDE, IMAGE, STEPPED, ACCEPTANCE, PAPER)
 
 
 def listing(asked: tuple[str, ...]) -> Iterator[tuple[str, str]]:

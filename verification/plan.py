@@ -81,7 +81,7 @@ def selected(names: Iterable[str]) -> tuple[str, ...]:
     """Names that the given ones stand for.
 
     Args:
-        names: Of cases or families, shell-style wildcards allowed; empty: everything but what takes hours.
+        names: Of cases or families, shell-style wildcards allowed; empty: everything but `trials.APART`.
 
     Returns:
         Names out of `known()`.
@@ -96,7 +96,7 @@ def selected(names: Iterable[str]) -> tuple[str, ...]:
             hint = f"did you mean {' or '.join(close)}?" if close else "--list shows what there is"
             raise SceneError(f"no case or family is called {name}; {hint}")
     if not names:
-        return tuple(word for word in known() if word not in trials.HOURS)
+        return tuple(word for word in known() if word not in trials.APART)
     return tuple(word for word in known() if any(fnmatchcase(word, name) for name in names))
 
 

@@ -28,12 +28,12 @@ from verification.robustness import benchmark_rows, loads_at_once, models
 from verification.stability import bracket, eigenstudy
 from verification.stability import pairs as eigenpairs
 
-__all__ = ["FEWEST", "HARD", "HOURS", "LARGEST", "listing", "names", "units"]
+__all__ = ["APART", "FEWEST", "HARD", "LARGEST", "listing", "names", "units"]
 
 # Chosen like families; a single hard case as "hard:NAME".
 HARD, LARGEST, FEWEST = "hard", "largest-load", "fewest-steps"
-# Take hours: done where they are asked for, never because everything is.
-HOURS = (bundletrials.LONG, groovescenariotrials.ACCEPTANCE)
+# Take hours, or tell little by themselves: done where they are asked for, never because everything is.
+APART = (bundletrials.LONG, groovescenariotrials.ACCEPTANCE, *groovescenariotrials.UNTOLD)
 
 
 def names() -> tuple[str, ...]:

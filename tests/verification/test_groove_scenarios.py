@@ -15,6 +15,7 @@ from verification.groovescenarioclaims import judged, with_claims
 from verification.groovescenariosteps import NUDGE, GrooveSteps, in_shorter_steps
 from verification.groovescenariotrials import ACCEPTANCE, SCENARIOS
 from verification.ledger import decode, encode
+from verification.plan import selected
 from verification.report import groovescenario, groovescenariopaper
 from verification.report.groovekept import bundles_kept
 from verification.report.groovescenariosteps import stepped
@@ -176,8 +177,11 @@ def test_before_anything_is_struck_paths_near_one_another_and_a_strike_gives_bac
 
 
 def test_a_report_leaves_to_whole_bundles_what_few_small_ones_tell_nothing_of():
-    asked = {one: list(groovescenariotrials.units((one,), quick=False)) for one in (SCENARIOS, ACCEPTANCE)}
-    ensembles = {one: {u.parameters[1] for u in us if u.parameters[0] == "ensemble"} for one, us in asked.items()}
-    assert ensembles[ACCEPTANCE] == {one.name for one in SETTINGS}
-    assert ensembles[ACCEPTANCE] - ensembles[SCENARIOS] == {"L0", "half-elements", "half-steps", "twice-penalty"}
+    whole, family, everything = (
+        {u.parameters[1] for u in groovescenariotrials.units(asked, quick=False) if u.parameters[0] == "ensemble"}
+        for asked in ((ACCEPTANCE,), (SCENARIOS,), selected(()))
+    )
+    assert whole == {one.name for one in SETTINGS}
+    assert everything == {"lateral", "intermediate", "pinned", "still"}
+    assert everything == family
     assert len(list(groovescenariotrials.units((f"{SCENARIOS}:half-steps",), quick=False))) == 1

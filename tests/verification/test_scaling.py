@@ -15,7 +15,7 @@ from verification.plan import selected
 from verification.report.misses import sentence
 from verification.report.scaling import scalings
 from verification.scaling import RANKS, EnsembleScaling, Scaling, ensembles, scaled
-from verification.trials import HOURS
+from verification.trials import APART
 
 BUNDLE = Scaling(57, 200, 2.0, 1.3, 1.0, 0.05, 40.0, 6e4, 1e-5, 1e9)
 ENSEMBLE = EnsembleScaling(10, (20.0, 10.4), (2.0,) * 10)
@@ -65,8 +65,8 @@ def test_rows_are_kept_and_recalled_as_they_were():
 
 
 def test_what_takes_hours_is_done_only_where_it_is_asked_for():
-    assert not set(HOURS) & set(selected(()))
-    assert set(HOURS) & set(selected(("*-long",))) == {"bundles-long"}
+    assert not set(APART) & set(selected(()))
+    assert set(APART) & set(selected(("*-long",))) == {"bundles-long"}
     assert "groove-acceptance" in selected(("groove-acceptance",))
 
 

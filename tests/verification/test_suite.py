@@ -21,7 +21,7 @@ from verification.order import Order
 from verification.plan import LAWS, families, headlines, known, plan, selected
 from verification.shape import Shape
 from verification.suite import report
-from verification.trials import HOURS
+from verification.trials import APART
 from verification.workoff import Spent, spent, work_off
 from verification.workprecision import Record, Study, Timing
 
@@ -66,7 +66,7 @@ def test_every_case_is_studied_on_three_meshes_by_every_model_that_poses_it():
 
 
 def test_names_stand_for_cases_families_and_wildcards():
-    assert selected(()) == tuple(name for name in known() if name not in HOURS)
+    assert selected(()) == tuple(name for name in known() if name not in APART)
     assert selected(("elastica-10",)) == ("elastica-10",)
     assert "rollup-5" in selected(("roll*",))
     assert {unit.parameters[0] for unit in plan(selected(("rollup",)), quick=True) if unit.topic == "study"} == {

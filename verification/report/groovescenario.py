@@ -32,8 +32,8 @@ WORDS = (
     "assumptions; nothing is fitted to the measured yarns. Twist is that of crossings, half a turn each, which the "
     "angles at the ends do not bias. A report takes three bundles of three fibres on elements four times as long for "
     "1.5 ms, a quick one two of two for a blink; ./run report groove-acceptance takes ten of five on those of the "
-    "paper until they are at rest, and again with half the elements' length, half the step and twice the penalty, of "
-    "which three small ones tell nothing."
+    "paper until they are at rest, and again from the other side, with a core that rolls, with half the elements' "
+    "length, half the step and twice the penalty, of which three small ones tell nothing."
 )
 NUMBER, PROSE = "number", "prose"
 KINDS = (("continuum", "p3", False), ("discrete", "chord", True))
