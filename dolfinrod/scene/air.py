@@ -63,7 +63,7 @@ class Air:
             return np.broadcast_to(np.asarray(self.field), x.shape)
         u = np.asarray(self.field(x, t), dtype=float)
         # Where an iteration that diverges has lost a point, no field is to blame.
-        if u.shape != x.shape or not np.isfinite(u[np.isfinite(x).all(axis=1)]).all():
+        if u.shape != x.shape or not (np.isfinite(u).all() or np.isfinite(u[np.isfinite(x).all(axis=1)]).all()):
             raise SceneError(f"must give finite velocities of shape {x.shape}, got {quoted(u)}", field="air.field")
         return u
 
