@@ -77,9 +77,7 @@ def _work(plan: Callable[[], Sequence[Unit]], ledger: Ledger, taken: Synchronize
                 if rows is None and units[k].alone:
                     continue
                 if rows is None:
-                    found, seconds = units[k].done()
-                    interrupt.check()
-                    ledger.keep(units[k], found, seconds)
+                    ledger.fill(units[k], interrupt)
                 writer.send((k, rows is not None))
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 from dolfinrod.groove import Scenario, ensemble, variant
 from dolfinrod.scene import Penalty
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 __all__ = ["SEEDS", "SETTINGS", "GrooveEnsemble", "Setting", "gathered", "setting", "small"]
 
@@ -131,11 +134,12 @@ def setting(name: str) -> Setting:
     return next(one for one in SETTINGS if one.name == name)
 
 
-def gathered(one: Setting, model: str = "discrete") -> GrooveEnsemble:
+def gathered(one: Setting, folder: Path, model: str = "discrete") -> GrooveEnsemble:
     """Solve an ensemble.
 
     Args:
         one: What.
+        folder: Where runs that have ended are kept, and found again.
         model: By which model.
 
     Returns:
@@ -143,8 +147,7 @@ def gathered(one: Setting, model: str = "discrete") -> GrooveEnsemble:
     """
     from mpi4py import MPI
 
-    with TemporaryDirectory() as folder:
-        found = ensemble(one.scenario, folder=folder, seeds=range(one.seeds), model=model, comm=MPI.COMM_SELF)
+    found = ensemble(one.scenario, folder=folder, seeds=range(one.seeds), model=model, comm=MPI.COMM_SELF)
     return GrooveEnsemble(
         name=one.name,
         title=one.words,

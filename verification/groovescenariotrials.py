@@ -88,7 +88,7 @@ def _ensemble(one: Setting) -> Unit:
     """All its runs."""
     posed = one.scenario
     key = ("ensemble", one.name, one.seeds, posed.fibres, posed.elements, posed.t_end)
-    return Unit("groove scenario", f"Bundles: {one.words}", key, partial(gathered, one))
+    return Unit("groove scenario", f"Bundles: {one.words}", key, partial(gathered, one), in_parts=True)
 
 
 def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:

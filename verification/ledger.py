@@ -1,8 +1,9 @@
 """Finished work kept on disk, so that a verification that was stopped goes on where it was.
 
-One JSON file a unit, written beside its place and moved there whole. Its folder is named by what all numbers depend on,
-machine, versions and source, its own name by the unit's parameters. Whatever of that changes, the unit is done again;
-what was found by another source is thrown away.
+One JSON file a unit, written beside its place and moved there whole; until then a folder of those of its runs that have
+ended, where it is many. Files lie in a folder named by what all numbers depend on, machine, versions and source, and
+are named by the unit's parameters. Whatever of that changes, the unit is done again; what was found by another source
+is thrown away.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from dataclasses import dataclass, fields, is_dataclass
 from math import isfinite
 from pathlib import Path
 from time import perf_counter
-from typing import Any, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
@@ -56,6 +57,9 @@ from verification.speed import Speed
 from verification.stability import Bracket, EigenStudy
 from verification.twist import TwistStudy
 from verification.workprecision import Record, Study, Timing
+
+if TYPE_CHECKING:
+    from verification.interrupt import Interrupt
 
 __all__ = ["Ledger", "Unit", "source_hash"]
 
@@ -104,19 +108,22 @@ class Unit:
         alone: Whether it compares times on all cores, so that nothing else may run beside it.
         rests_on: A solution that it is held against, by a name: units in a row that share it are left to one process,
             which then solves it once; empty: none that others share.
+        in_parts: Whether `work` is many runs, told a folder in which it keeps those that have ended and finds them
+            again.
     """
 
     topic: str
     words: str
     parameters: tuple[str | int | float, ...]
-    work: Callable[[], Row | tuple[Row, ...]]
+    work: Callable[..., Row | tuple[Row, ...]]
     alone: bool = False
     rests_on: str = ""
+    in_parts: bool = False
 
-    def done(self) -> tuple[tuple[Row, ...], float]:
-        """Do it: rows, and seconds by the clock."""
+    def done(self, folder: Path) -> tuple[tuple[Row, ...], float]:
+        """Do it, its parts kept in a folder where it has any: rows, and seconds by the clock."""
         began = perf_counter()
-        rows = self.work()
+        rows = self.work(folder) if self.in_parts else self.work()
         return rows if isinstance(rows, tuple) else (rows,), perf_counter() - began
 
 
@@ -150,6 +157,26 @@ class Ledger:
         except (OSError, ValueError, KeyError, TypeError):
             return None
         return found if isinstance(found, tuple) else None
+
+    def fill(self, unit: Unit, interrupt: Interrupt | None = None) -> tuple[Row, ...]:
+        """Do a unit and keep its rows; of one that is interrupted, the parts that have ended.
+
+        Args:
+            unit: Of which nothing is recalled.
+            interrupt: Asked after it, so that none is kept that was disturbed.
+
+        Returns:
+            Its rows.
+        """
+        parts = self._place(unit).with_suffix("")
+        if self._fresh:
+            shutil.rmtree(parts, ignore_errors=True)
+        rows, seconds = unit.done(parts)
+        if interrupt is not None:
+            interrupt.check()
+        self.keep(unit, rows, seconds)
+        shutil.rmtree(parts, ignore_errors=True)
+        return rows
 
     def trust(self, unit: Unit) -> None:
         """Recall this unit even where all others are done afresh: it was kept by a process of this run."""

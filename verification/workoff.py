@@ -54,10 +54,7 @@ def work_off(
         rows = ledger.recall(unit)
         note(k, unit, rows is not None)
         if rows is None:
-            rows, seconds = unit.done()
-            if interrupt is not None:
-                interrupt.check()
-            ledger.keep(unit, rows, seconds)
+            rows = ledger.fill(unit, interrupt)
         found[unit.topic] = (*found.get(unit.topic, ()), *rows)
     return found
 

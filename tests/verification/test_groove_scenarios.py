@@ -119,10 +119,10 @@ def test_markdown_holds_every_claim_its_verdict_and_the_means_it_rests_on():
 
 
 @pytest.mark.serial
-def test_a_blink_of_each_goes_to_the_ledger_and_onto_the_page():
+def test_a_blink_of_each_goes_to_the_ledger_and_onto_the_page(tmp_path):
     scenario = brief(setting("lateral").scenario)
     rows = (
-        gathered(setting("intermediate").hurried()),
+        gathered(setting("intermediate").hurried(), tmp_path),
         by_both(scenario),
         with_image(scenario, "discrete"),
         as_printed("SI", "zone", "discrete", 2, air=True),

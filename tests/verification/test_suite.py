@@ -128,6 +128,30 @@ def test_finished_units_are_recalled_and_the_rest_is_done(tmp_path):
     assert done == ["first", "second", "first", "second"]
 
 
+@pytest.mark.parametrize("fresh", [False, True])
+def test_runs_of_a_unit_that_have_ended_outlast_its_interruption(fresh, tmp_path):
+    """They are found again, but where all is done afresh; nothing is left of them once the unit is whole."""
+    done = []
+
+    def work(folder):
+        folder.mkdir(exist_ok=True)
+        for run in ("first", "second"):
+            if not (folder / run).exists():
+                done.append(run)
+                if len(done) == 2:
+                    raise KeyboardInterrupt
+                (folder / run).touch()
+        return study()
+
+    units = [Unit("study", "many", ("many", 8), work, in_parts=True)]
+    with pytest.raises(KeyboardInterrupt):
+        work_off(units, Ledger(tmp_path, MACHINE))
+    work_off(units, Ledger(tmp_path, MACHINE, fresh=fresh))
+    assert done == ["first", "second", *(["first"] if fresh else []), "second"]
+    assert Ledger(tmp_path, MACHINE).recall(units[0]) is not None
+    assert not [path for path in tmp_path.glob("*/*") if path.is_dir()]
+
+
 def test_ctrl_c_that_a_solver_takes_for_a_failure_is_not_lost(tmp_path):
     """Nor is the unit kept that it disturbed."""
 
@@ -170,7 +194,7 @@ def test_what_the_suite_took_is_kept_with_the_rows(tmp_path):
     (row,) = spent(units, Ledger(tmp_path, MACHINE))
     assert row == Spent("study", 2, 3.0, "second", 2.0)
     assert book.seconds(unit("third", study)) == 0.0
-    rows, seconds = units[0].done()
+    rows, seconds = units[0].done(tmp_path)
     assert rows == (study(),)
     assert seconds > 0.0
 
