@@ -98,7 +98,7 @@ def recorded(
         Complete, in SI units.
     """
     iterated = isinstance(path.state, State)
-    formulation = _formulation(scene, cut, held, with_force=iterated)
+    formulation = _formulation(scene, cut, (*_untold(scene, path), *held), with_force=iterated)
     dofs = sum(formulation.unknowns.values())
     return Result(
         scene=scene,
@@ -113,6 +113,12 @@ def recorded(
         contacts=contact_histories(scene, cut, [kept.touching for kept in path.kept if kept.touching is not None]),
         meetings=meeting_histories([kept.met for kept in path.kept]),
     )
+
+
+def _untold(scene: Scene, path: Path[State] | Path[Carried]) -> tuple[str, ...]:
+    """Why the last state is called neither stable nor unstable, where it might be."""
+    untold = bool(path.log) and path.log[-1].stable is None and energetic(scene)
+    return ("stability not told: the tangent has no sign but for round-off, or too many elements for one",) * untold
 
 
 def _formulation(scene: Scene, cut: Mesh, held: Sequence[str], *, with_force: bool) -> Formulation:

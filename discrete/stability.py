@@ -109,8 +109,8 @@ class Judge:
             return Verdict(None, None, False)
         symmetric = blocks(tangent)
         conservative = symmetric.asymmetry <= SYMMETRIC
-        negative = negative_directions(symmetric)
         try:
+            negative = negative_directions(symmetric)
             if negative != 0:
                 lifted = self._lifted(tangent, R)
                 negative = negative if lifted is tangent else negative_directions(blocks(lifted))
