@@ -85,7 +85,7 @@ class Branches:
             return np.inf
         try:
             tangent = self._tangent(last, t_last)
-            μ, _ = critical_ahead(self._equilibrium, self._scene, last, t_last, tangent, 1)
+            μ = critical_ahead(self._equilibrium, self._scene, last, t_last, tangent, 1).way
         except SingularTangentError:
             return t_last
         return t_last + float(min(μ.real, default=np.inf))

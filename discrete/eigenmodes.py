@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from discrete.ahead import critical_ahead
+from discrete.digits import demand_digits, lost
 from discrete.krylov import REAL, clusters
 from discrete.mass import densities, masses
 from discrete.onward import varies
@@ -58,7 +59,8 @@ def buckling(scene: Scene, *, modes: int = 3, at: Result | None = None, elements
         Critical pseudo-times, the next one first, with multiplicities and shapes.
 
     Raises:
-        SceneError: The scene or an option cannot be solved as given, or no load varies.
+        SceneError: The scene or an option cannot be solved as given, no load varies, or so many elements leave fewer
+            than three digits.
         NotConverged: No equilibrium under the steady loads.
     """
     n = count(modes, "modes", MOST_MODES)
@@ -85,7 +87,7 @@ def critical(scene: Scene, *, modes: int = 3, elements: int | Sequence[int] = 80
         None where the whole path is free of critical points. `at` is the equilibrium just below.
 
     Raises:
-        SceneError: The scene or an option cannot be solved as given.
+        SceneError: The scene or an option cannot be solved as given, or so many elements leave fewer than three digits.
         NotConverged: No equilibrium on the way.
     """
     n = count(modes, "modes", MOST_MODES)
@@ -123,7 +125,8 @@ def modes(scene: Scene, *, modes: int = 6, at: Result | None = None, elements: i
         Frequencies nearest to zero, unstable directions first, with multiplicities and shapes.
 
     Raises:
-        SceneError: The scene or an option cannot be solved as given, or a section has no density.
+        SceneError: The scene or an option cannot be solved as given, a section has no density, or so many elements
+            leave fewer than three digits.
         NotConverged: No equilibrium under the steady loads.
     """
     n = count(modes, "modes", MOST_MODES)
@@ -136,6 +139,8 @@ def modes(scene: Scene, *, modes: int = 6, at: Result | None = None, elements: i
     shift = 1.0 / float(mass.m.sum())
     λ, v = spectrum(session.tangent, session.state.R, mass, n, shift=shift)
     λ = np.where(np.abs(λ) <= RIGID * shift, 0.0, λ)
+    moving = λ != 0.0
+    demand_digits(lost(session.tangent, v[:, moving].real), len(mesh.elements.l), "squares of frequencies")
     λ = np.where(np.abs(λ.imag) <= REAL * np.abs(λ), λ.real + 0j, λ)
     order = np.lexsort([λ.real, (λ.imag == 0.0) & (λ.real >= 0.0)])
     λ, v = λ[order], v[:, order]
@@ -144,12 +149,14 @@ def modes(scene: Scene, *, modes: int = 6, at: Result | None = None, elements: i
 
 def next_critical(session: Session, n: int) -> Buckling:
     """The next n critical points seen from an equilibrium, (K + μ dK/dt) v = 0 with least μ > 0."""
-    tangent, t = session.tangent, session.t
-    μ, v = critical_ahead(session.equilibrium, session.scene, session.state, t, tangent, n)
-    real = np.abs(μ.imag) <= REAL * np.abs(μ)
-    factors = t + μ[real].real
-    rods = shapes(session.equilibrium.mesh, tangent, v[:, real].real)
-    return Buckling(factors, clusters(factors), rods, session.result(), t + μ[~real])
+    tangent, t, mesh = session.tangent, session.t, session.equilibrium.mesh
+    found = critical_ahead(session.equilibrium, session.scene, session.state, t, tangent, n)
+    real = np.abs(found.way.imag) <= REAL * np.abs(found.way)
+    ahead = found.way[real].real
+    factors = t + ahead
+    demand_digits(found.lost[real] * ahead / factors, len(mesh.elements.l), "critical loads")
+    rods = shapes(mesh, tangent, found.motion[:, real].real)
+    return Buckling(factors, clusters(factors), rods, session.result(), t + found.way[~real])
 
 
 def _none(found: Buckling) -> Buckling:

@@ -57,7 +57,7 @@ class Tangent:
     def times(self, vectors: Array) -> Array:
         """Products with several vectors, shape (n_unknowns, m)."""
         node_i = self.system.node_i
-        v = vectors.reshape(-1, N_NODE, vectors.shape[1])
+        v = vectors.reshape(len(vectors) // N_NODE, N_NODE, vectors.shape[1])
         own = np.concatenate([v[node_i], v[node_i + 1, :AXIAL]], axis=1)
         product, total = np.matmul(self.elements, own), np.zeros_like(v)
         total[node_i] = product[:, :N_NODE]
