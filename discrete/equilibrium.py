@@ -28,7 +28,7 @@ from discrete.rotation import exp
 from discrete.state import Outcome, State
 from discrete.turning import LARGEST_TURN, chord_spin
 from discrete.unknowns import SPIN, SPIN_I, SPIN_J, X_I, X_J, X
-from discrete.watch import ALIASED, WANDERING, Watch
+from discrete.watch import ALIASED, VANISHED, WANDERING, Watch
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -148,7 +148,7 @@ class Equilibrium:
                 reason = str(error)
                 break
             if step.change < fine:
-                reason = ALIASED if watch.aliased else SETTLED
+                reason = VANISHED if self.mesh.elements.gone(step.state.F_n) else ALIASED if watch.aliased else SETTLED
                 break
             if not np.isfinite(step.change):
                 reason = "the iteration diverged"

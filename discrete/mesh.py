@@ -86,6 +86,10 @@ class Elements:
         ends[:, 0], ends[:, 1] = R[self.node_i], R[self.node_i + 1]
         return ends @ self.attached
 
+    def gone(self, F_n: Array) -> bool:
+        """Whether axial forces, shape (n,), leave nothing of any element, or less."""
+        return bool((self.l_0 + self.compliance * F_n <= np.finfo(float).eps * self.l_0).any())
+
 
 @dataclass(frozen=True, eq=False)
 class Mesh:

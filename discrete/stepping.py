@@ -7,6 +7,7 @@ symmetry keeps the loads from pushing, as on a perfect column, no step however s
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,8 +38,28 @@ NEAR = 1e-6
 EASY = 16
 # Part of an interval within which a critical point explains that a step could not be taken.
 CLOSE = 0.01
+# Directions that a round rod loses at once: where more are lost, what pushed the rod at first is not seen any more.
+PAIR = 2
+# Ways to a critical point over which steps are measured by them.
+BEHIND = 4.0
 # Turn of a section from the extrapolated state at which an unstable path may have been left [rad].
 STRAYED = 0.5
+
+
+@dataclass
+class _Scale:
+    """What steps are short beside: an interval of the loads, or the way to a critical point in it, while that is near.
+
+    Fibres whose ends are brought together buckle within a ten-thousandth of the way, which no halving of it finds.
+    """
+
+    interval: float
+    way: float = np.inf
+    until: float = -np.inf
+    looked: bool = False
+
+    def at(self, t: float) -> float:
+        return min(self.way, self.interval) if t < self.until else self.interval
 
 
 class Walk:
@@ -79,28 +100,41 @@ class Walk:
 
     def _reach(self, target: float, progress: Progress | None) -> None:
         """Follow the loads over one interval."""
-        interval, cuts = target - self._memory.t, 0
+        scale, cuts = _Scale(target - self._memory.t), 0
         while self._memory.t < target:
             t = self._memory.t
             trial = min(self._step, target - t)
             t_next = target if trial >= (target - t) * (1.0 - NEAR) else t + trial
             outcome, verdict = self._judged(self._attempt(t_next))
-            if self._unwanted(outcome, verdict, t_next):
-                if trial > interval / 2**MOST_CUTS_AT_A_CRITICAL_POINT:
-                    cuts, self._step = cuts + 1, trial / 2.0
+            far = verdict is not None and bool(self._stable) and (verdict.directions or 0) > PAIR
+            if (far and not scale.looked) or self._unwanted(outcome, verdict, t_next):
+                near = self._foreseen(scale, trial)
+                if near or trial > scale.at(t) / 2**MOST_CUTS_AT_A_CRITICAL_POINT:
+                    cuts, self._step = cuts + 1, near or trial / 2.0
                     continue
                 outcome, verdict = self._pushed(outcome, verdict, t_next)
             if verdict is None:
                 if outcome.reason == DEEP:
-                    raise self._failed(trial, outcome.reason, interval)
+                    raise self._failed(trial, outcome.reason, scale.interval)
                 cuts, self._step = cuts + 1, trial / 2.0
-                if self._step <= interval / 2**MOST_CUTS:
-                    raise self._failed(trial, outcome.reason, interval)
+                if self._step <= scale.at(t) / 2**MOST_CUTS:
+                    raise self._failed(trial, outcome.reason, scale.interval)
                 continue
             self._accept(outcome, verdict, t_next, cuts, progress)
             # A step that the target has cut short says nothing against a longer one.
             grown = 2.0 * trial if cuts == 0 and outcome.iterations <= EASY else trial
             self._step, cuts = max(self._step, grown), 0
+
+    def _foreseen(self, scale: _Scale, trial: float) -> float:
+        """Way to the first critical point ahead where it is nearer than a step over it; zero where none is."""
+        if scale.looked:
+            return 0.0
+        scale.looked, t = True, self._memory.t
+        critical = self._branches.next_critical(self._memory.state, t)
+        if not t < critical < t + trial:
+            return 0.0
+        scale.way, scale.until = critical - t, t + BEHIND * (critical - t)
+        return scale.way
 
     def _failed(self, step: float, reason: str, interval: float) -> StepFailed:
         """What a step that could not be taken leaves to be known."""

@@ -15,10 +15,11 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["ALIASED", "WANDERING", "Watch"]
+__all__ = ["ALIASED", "VANISHED", "WANDERING", "Watch"]
 
 WANDERING = "the sections turned back and forth"
 ALIASED = "sections at the ends of an element turned by half a turn against each other, more than it can tell"
+VANISHED = "an element was pressed to nothing"
 # What a section may turn in excess of its net turn before the iteration is given up [rad]. Those that settle from a
 # whole follower load of 20 EI/L² spend 5 on going back and forth, those that never settle 3/4 an iteration.
 MOST_WANDERING = 8.0

@@ -10,8 +10,9 @@ from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.scene.advice import Findings
 
 if TYPE_CHECKING:
+    from dolfinrod.continuum.path import Path
     from dolfinrod.continuum.readout import Readout
-    from dolfinrod.continuum.stepping import Path, StepFailed
+    from dolfinrod.continuum.stepping import StepFailed
 
 __all__ = ["findings"]
 

@@ -32,8 +32,8 @@ class NegativePivots:
         self._comm, self._pc, self._room = comm, None, ROOM
         self._matrix: PETSc.Mat | None = None
 
-    def count(self, A: PETSc.Mat) -> int:
-        """How many there are."""
+    def count(self, A: PETSc.Mat) -> int | None:
+        """How many there are; None where some are zero to round-off."""
         A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         if self._matrix is not A:
             self.close()
@@ -48,7 +48,7 @@ class NegativePivots:
             self._room *= 2
         return self._count(A)
 
-    def _count(self, A: PETSc.Mat) -> int:
+    def _count(self, A: PETSc.Mat) -> int | None:
         pc = self._pc
         if pc is None:
             pc = self._pc = PETSc.PC().create(self._comm)
@@ -62,7 +62,8 @@ class NegativePivots:
                 pc.getFactorMatrix().setMumpsIcntl(option, value)
         pc.setOperators(A)
         pc.setUp()
-        return int(pc.getFactorMatrix().getInertia()[0])
+        negative, zero, _ = pc.getFactorMatrix().getInertia()
+        return None if zero else int(negative)
 
     def close(self) -> None:
         """Free what PETSc holds, on all ranks together."""

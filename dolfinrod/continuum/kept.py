@@ -8,8 +8,8 @@ import numpy as np
 
 from dolfinrod.checkpoint import columns, rows
 from dolfinrod.continuum.met import is_ragged
+from dolfinrod.continuum.path import Path
 from dolfinrod.continuum.restart import moving_state, shapes, take_up
-from dolfinrod.continuum.stepping import Path
 from dolfinrod.continuum.trajectory import Mark
 
 if TYPE_CHECKING:

@@ -13,6 +13,7 @@ from dolfinrod.continuum.failure import findings
 from dolfinrod.continuum.lift import lifted
 from dolfinrod.continuum.neutral import PhaseCondition, equilibrium
 from dolfinrod.continuum.newton import Newton
+from dolfinrod.continuum.path import Path
 from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
@@ -22,7 +23,7 @@ from dolfinrod.continuum.rubbing import remembers
 from dolfinrod.continuum.solver import check_degree, choose, record
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stability import Judge, Verdict
-from dolfinrod.continuum.stepping import Path, StepFailed, Walk
+from dolfinrod.continuum.stepping import StepFailed, Walk
 from dolfinrod.result import NotConverged, Result, Statistics
 from dolfinrod.scene import Planar, SceneError, Spatial
 from dolfinrod.scene.advice import advice

@@ -16,6 +16,7 @@ from dolfinrod.continuum.kept import path_of, resumed_path
 from dolfinrod.continuum.lift import restated
 from dolfinrod.continuum.neutral import PhaseCondition
 from dolfinrod.continuum.newton import Newton
+from dolfinrod.continuum.path import Path
 from dolfinrod.continuum.placement import Placement
 from dolfinrod.continuum.planar import PlanarRods
 from dolfinrod.continuum.pool import borrowed
@@ -25,7 +26,7 @@ from dolfinrod.continuum.restart import meet_again, shapes_of_fields
 from dolfinrod.continuum.rubbing import remembers, rubs
 from dolfinrod.continuum.spatial import SpatialRods
 from dolfinrod.continuum.stability import judging
-from dolfinrod.continuum.stepping import Path, StepFailed, Walk
+from dolfinrod.continuum.stepping import StepFailed, Walk
 from dolfinrod.continuum.unknowns import unknowns
 from dolfinrod.result import Formulation, NotConverged, Result, Statistics
 from dolfinrod.scene import Dynamic, Planar, SceneError, Spatial

@@ -9,16 +9,17 @@ what is found does not lie there, steps become shorter.
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dolfinrod.continuum.ahead import critical_ahead
 from dolfinrod.continuum.aside import push_aside
 from dolfinrod.continuum.neutral import equilibrium
 from dolfinrod.continuum.pressed import DIRECT
 from dolfinrod.continuum.stability import Verdict
-from dolfinrod.continuum.stride import EASY, Stride
+from dolfinrod.continuum.stride import EASY, Scale, Stride
 from dolfinrod.continuum.watch import largest_turn_between_nodes
 from dolfinrod.result import StepLog
 from dolfinrod.scene import Dynamic, corners
@@ -29,13 +30,14 @@ if TYPE_CHECKING:
 
     from dolfinrod.continuum.neutral import PhaseCondition
     from dolfinrod.continuum.newton import Newton, Outcome
+    from dolfinrod.continuum.path import Path
     from dolfinrod.continuum.readout import Readout, State
     from dolfinrod.continuum.stability import Judge
     from dolfinrod.scene import Scene
 
     Found = tuple[Outcome, State, Verdict]
 
-__all__ = ["Path", "StepFailed", "Walk", "targets"]
+__all__ = ["StepFailed", "Walk", "targets"]
 
 # Halvings of the way from one target to the next after which a step is too small to be taken.
 MOST_CUTS = 12
@@ -60,29 +62,6 @@ class StepFailed(RuntimeError):  # noqa: N818
     def __init__(self, *, t: float, step: float, reason: str, coarse: bool = False, interrupted: bool = False) -> None:
         super().__init__(reason)
         self.t, self.step, self.reason, self.coarse, self.interrupted = t, step, reason, coarse, interrupted
-
-
-@dataclass
-class Path:
-    """States accepted so far.
-
-    Args:
-        t: Their pseudo-times.
-        states: Their gathered states.
-        energy: Their strain energies [J].
-        log: One row a step.
-        iterations: All Newton iterations, failed attempts included.
-        stable: Whether the last state is stable; None where that is not known.
-        seconds_stability: Time for finding that out, for all states [s].
-    """
-
-    t: list[float] = field(default_factory=list)
-    states: list[State] = field(default_factory=list)
-    energy: list[float] = field(default_factory=list)
-    log: list[StepLog] = field(default_factory=list)
-    iterations: int = 0
-    stable: bool | None = None
-    seconds_stability: float = 0.0
 
 
 def targets(scene: Scene, t_0: float, until: float = np.inf) -> list[float]:
@@ -131,11 +110,11 @@ class Walk:
         """
         scene = self.newton.problem.scene
         for target in targets(scene, self.path.t[-1], until):
-            start = self.path.t[-1]
+            scale = Scale(target - self.path.t[-1])
             while self.path.t[-1] < target:
-                self._step(target, target - start)
+                self._step(target, scale)
 
-    def _step(self, target: float, interval: float) -> None:
+    def _step(self, target: float, scale: Scale) -> None:
         """Try one step towards the target, and accept it or make the next one shorter."""
         path, problem, t = self.path, self.newton.problem, self.path.t[-1]
         tried = self._stride.next(target - t)
@@ -148,7 +127,9 @@ class Walk:
             outcome, state, verdict = self._beside(t_next, (outcome, state, verdict))
             # The way to a stable state may only be too steep for so long a step, or lead to where the path does not.
             lost = outcome.strayed or (verdict.avoidable and path.stable is not False)
-            if not lost or tried <= interval / 2**MOST_DETOURS:
+            if lost and self._foresees(scale, tried):
+                return
+            if not lost or tried <= scale.at(t) / 2**MOST_DETOURS:
                 self._accept(t_next, outcome, state, verdict)
                 self._stride.succeed(tried, outcome.iterations)
                 if lost:
@@ -156,11 +137,25 @@ class Walk:
                 return
         self._readout.restore(path.states[-1])
         self._stride.fail(tried)
-        if self._stride.length <= interval / 2 ** (MOST_CUTS + 1):
+        if self._stride.length <= scale.at(t) / 2 ** (MOST_CUTS + 1):
             turn = largest_turn_between_nodes(problem)
             coarse = turn > BLURRED
             reason = COARSE.format(turn) if coarse else outcome.reason
             raise StepFailed(t=t, step=tried, reason=reason, coarse=coarse)
+
+    def _foresees(self, scale: Scale, tried: float) -> bool:
+        """Whether the first critical point ahead is nearer than a step over it: no longer one is tried next."""
+        problem, t = self.newton.problem, self.path.t[-1]
+        if scale.looked or problem.contacts is not None:
+            return False
+        scale.looked = True
+        critical = critical_ahead(self._readout, self.path.states[-1], t)
+        if not t < critical < t + tried:
+            return False
+        scale.near(t, critical)
+        self._readout.restore(self.path.states[-1])
+        self._stride.fail(2.0 * scale.way)
+        return True
 
     def _attempt(self, t: float, step: float, *, closely: bool) -> tuple[Outcome, State | None, Verdict | None]:
         """Equilibrium at t; the state and what it is worth, if one was found that the elements can show."""

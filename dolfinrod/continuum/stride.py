@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["EASY", "Stride"]
+__all__ = ["EASY", "Scale", "Stride"]
 
 # A step that took at most so many iterations was easy, and the next may be longer by this factor.
 EASY, GROWTH = 6, 1.5
 # Easy steps before a length that failed is tried again.
 PATIENCE = 4
+# Ways to a critical point over which steps are measured by them.
+BEHIND = 4.0
 
 
 @dataclass
@@ -50,3 +52,30 @@ class Stride:
     def next(self, distance: float) -> float:
         """Length of the next step on the way to a target, the rest being cut into equal parts."""
         return float(distance / np.ceil(distance / self.length * (1 - 1e-9))) if self.length < distance else distance
+
+
+@dataclass
+class Scale:
+    """What steps are short beside: the way from one target to the next, or to a critical point that lies on it.
+
+    Slender rods whose ends are brought together buckle within a ten-thousandth of that way: no halving finds that.
+
+    Args:
+        interval: From target to target.
+        way: To the critical point.
+        until: Pseudo-time up to which that counts.
+        looked: Whether it has been looked for.
+    """
+
+    interval: float
+    way: float = np.inf
+    until: float = -np.inf
+    looked: bool = False
+
+    def near(self, t: float, critical: float) -> None:
+        """A critical point is seen from t; it counts for as long again behind it."""
+        self.way, self.until = critical - t, t + BEHIND * (critical - t)
+
+    def at(self, t: float) -> float:
+        """The scale at a pseudo-time."""
+        return min(self.way, self.interval) if t < self.until else self.interval
