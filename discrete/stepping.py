@@ -40,8 +40,8 @@ EASY = 16
 CLOSE = 0.01
 # Directions that a round rod loses at once: where more are lost, what pushed the rod at first is not seen any more.
 PAIR = 2
-# Ways to a critical point over which steps are measured by them.
-BEHIND = 4.0
+# Ways to a critical point over which steps are measured by them, where they are this much shorter than an interval.
+BEHIND, SHORT = 4.0, 16.0
 # Turn of a section from the extrapolated state at which an unstable path may have been left [rad].
 STRAYED = 0.5
 
@@ -53,6 +53,7 @@ class _Scale:
     Fibres whose ends are brought together buckle within a ten-thousandth of the way, which no halving of it finds.
     """
 
+    start: float
     interval: float
     way: float = np.inf
     until: float = -np.inf
@@ -100,14 +101,14 @@ class Walk:
 
     def _reach(self, target: float, progress: Progress | None) -> None:
         """Follow the loads over one interval."""
-        scale, cuts = _Scale(target - self._memory.t), 0
+        scale, cuts = _Scale(self._memory.t, target - self._memory.t), 0
         while self._memory.t < target:
             t = self._memory.t
             trial = min(self._step, target - t)
             t_next = target if trial >= (target - t) * (1.0 - NEAR) else t + trial
             outcome, verdict = self._judged(self._attempt(t_next))
             far = verdict is not None and bool(self._stable) and (verdict.directions or 0) > PAIR
-            if (far and not scale.looked) or self._unwanted(outcome, verdict, t_next):
+            if (far and t == scale.start and not scale.looked) or self._unwanted(outcome, verdict, t_next):
                 near = self._foreseen(scale, trial)
                 if near or trial > scale.at(t) / 2**MOST_CUTS_AT_A_CRITICAL_POINT:
                     cuts, self._step = cuts + 1, near or trial / 2.0
@@ -127,11 +128,12 @@ class Walk:
 
     def _foreseen(self, scale: _Scale, trial: float) -> float:
         """Way to the first critical point ahead where it is nearer than a step over it; zero where none is."""
-        if scale.looked:
+        t = self._memory.t
+        if scale.looked or t > scale.start:
             return 0.0
-        scale.looked, t = True, self._memory.t
+        scale.looked = True
         critical = self._branches.next_critical(self._memory.state, t)
-        if not t < critical < t + trial:
+        if not t < critical < t + min(trial, scale.interval / SHORT):
             return 0.0
         scale.way, scale.until = critical - t, t + BEHIND * (critical - t)
         return scale.way

@@ -110,7 +110,7 @@ class Walk:
         """
         scene = self.newton.problem.scene
         for target in targets(scene, self.path.t[-1], until):
-            scale = Scale(target - self.path.t[-1])
+            scale = Scale(self.path.t[-1], target - self.path.t[-1])
             while self.path.t[-1] < target:
                 self._step(target, scale)
 
@@ -146,13 +146,12 @@ class Walk:
     def _foresees(self, scale: Scale, tried: float) -> bool:
         """Whether the first critical point ahead is nearer than a step over it: no longer one is tried next."""
         problem, t = self.newton.problem, self.path.t[-1]
-        if scale.looked or problem.contacts is not None:
+        if scale.looked or t > scale.start or problem.contacts is not None:
             return False
         scale.looked = True
         critical = critical_ahead(self._readout, self.path.states[-1], t)
-        if not t < critical < t + tried:
+        if not critical < t + tried or not scale.near(t, critical):
             return False
-        scale.near(t, critical)
         self._readout.restore(self.path.states[-1])
         self._stride.fail(2.0 * scale.way)
         return True

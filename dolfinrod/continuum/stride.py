@@ -12,8 +12,8 @@ __all__ = ["EASY", "Scale", "Stride"]
 EASY, GROWTH = 6, 1.5
 # Easy steps before a length that failed is tried again.
 PATIENCE = 4
-# Ways to a critical point over which steps are measured by them.
-BEHIND = 4.0
+# Ways to a critical point over which steps are measured by them, where they are this much shorter than an interval.
+BEHIND, SHORT = 4.0, 16.0
 
 
 @dataclass
@@ -61,20 +61,25 @@ class Scale:
     Slender rods whose ends are brought together buckle within a ten-thousandth of that way: no halving finds that.
 
     Args:
-        interval: From target to target.
+        start: Pseudo-time of the last target.
+        interval: From there to the next one.
         way: To the critical point.
         until: Pseudo-time up to which that counts.
         looked: Whether it has been looked for.
     """
 
+    start: float
     interval: float
     way: float = np.inf
     until: float = -np.inf
     looked: bool = False
 
-    def near(self, t: float, critical: float) -> None:
-        """A critical point is seen from t; it counts for as long again behind it."""
+    def near(self, t: float, critical: float) -> bool:
+        """A critical point is seen from t: whether it is so near that halved intervals would not find it."""
+        if not t < critical < t + self.interval / SHORT:
+            return False
         self.way, self.until = critical - t, t + BEHIND * (critical - t)
+        return True
 
     def at(self, t: float) -> float:
         """The scale at a pseudo-time."""
