@@ -159,14 +159,9 @@ class Ledger:
         return found if isinstance(found, tuple) else None
 
     def fill(self, unit: Unit, interrupt: Interrupt | None = None) -> tuple[Row, ...]:
-        """Do a unit and keep its rows; of one that is interrupted, the parts that have ended.
+        """Do a unit and keep its rows, or of one that is interrupted the parts that have ended.
 
-        Args:
-            unit: Of which nothing is recalled.
-            interrupt: Asked after it, so that none is kept that was disturbed.
-
-        Returns:
-            Its rows.
+        The interrupt is asked after it, so that none is kept that was disturbed.
         """
         parts = self._place(unit).with_suffix("")
         if self._fresh:

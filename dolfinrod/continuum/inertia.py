@@ -32,8 +32,21 @@ class NegativePivots:
         self._comm, self._pc, self._room = comm, None, ROOM
         self._matrix: PETSc.Mat | None = None
 
-    def count(self, A: PETSc.Mat) -> int | None:
-        """How many there are; None where some are zero to round-off."""
+    def beyond(self, A: PETSc.Mat, least: int) -> int | None:
+        """How many there are beyond those that there must be.
+
+        Args:
+            A: The matrix.
+            least: How many must be.
+
+        Returns:
+            Their number; None where some are zero to round-off, as at a critical point, or where one constraint
+            implies another.
+        """
+        negative = self._counted(A)
+        return None if negative is None or negative < least else negative - least
+
+    def _counted(self, A: PETSc.Mat) -> int | None:
         A.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         if self._matrix is not A:
             self.close()

@@ -107,12 +107,8 @@ class Judge:
         problem.assemble_tangent(A, on_sphere=True)
         A.setDiagonal(self._neutral(A, doubt), PETSc.InsertMode.ADD)
         if problem.conservative:
-            negative = self._pivots.count(A if self._joint is None else self._joint.filled(A))
-            # A constraint that another one implies has no sign, nor has a critical point.
-            if negative is None or negative < self._n_dual:
-                return Verdict(None)
-            unstable = negative - self._n_dual
-            return Verdict(unstable == 0, unstable, avoidable=unstable > 0)
+            unstable = self._pivots.beyond(A if self._joint is None else self._joint.filled(A), self._n_dual)
+            return Verdict(None) if unstable is None else Verdict(unstable == 0, unstable, avoidable=unstable > 0)
         if problem.pairs is not None:
             return Verdict(None)
         self._determinant = self._determinant or Determinant(A, problem.discretization.band)

@@ -184,3 +184,17 @@ def test_the_stiffest_strip_is_judged_by_its_soft_side(factor, lost):
     load = dr.PointForce((0.0, -4.0125985 * factor, 0.0), at="end")
     log = dr.solve(dr.Scene([straight(section)], [dr.Clamp("start")], [load])).log
     assert log[-1].unstable_directions == lost
+
+
+@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.3, -0.7, 0.45), (-0.2, 0.1, 0.9)])
+@both_kinematics
+def test_a_constraint_that_another_one_implies_is_no_direction(kinematics, axis):
+    """The force along an inextensible rod held at both ends is anything: refused, or told as such, never counted."""
+    section = dr.Section(GJ=1.0, EI=1.0, rigid={"shear", "extension"})
+    rod, pushed = dr.Rod.straight(1.0, section, direction=axis), dr.PointForce((1, 2, 0), "end")
+    scene = dr.Scene([rod], [dr.Clamp("start"), dr.Pin("end")], [pushed])
+    try:
+        log = dr.solve(scene, elements=4, kinematics=kinematics).log
+    except dr.NotConverged as failed:
+        log = failed.result.log
+    assert [(row.stable, row.unstable_directions) for row in log] in ([], [(None, None)])
