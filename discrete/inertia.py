@@ -7,8 +7,8 @@ unknown with the compliance −l/EA on the diagonal, contributes one per element
 A pivot block is the stiffness of a node between two held ones. The cost is linear in the number of elements.
 
 Entries fall to an eighth with each folding while what round-off has left in them adds up, so that of n elements between
-supports it turns signs from about n⁴ = 1/ε on. It is followed along: where it is much of a pivot block, a rod that
-seems to give way is not told from one that does.
+supports it turns signs from about n⁴ = 1/ε on. Where rods of many elements seem to give way it is followed along: if it
+is much of a pivot block, they are not told from rods that do.
 
 Here F_n stands with the node at which its element ends: with that node free all its motions meet a resistance, and the
 first node of a rod, which has none, is the last to be eliminated.
@@ -36,8 +36,8 @@ __all__ = ["Blocks", "blocks", "negative_directions"]
 
 # An eigenvalue of a pivot block, its entries about one, that is smaller has no sign.
 SINGULAR = 1e-15
-# Round-off of a pivot block, its entries about one, that may turn signs.
-SPOILT = 0.1
+# Round-off of a pivot block, its entries about one, that may turn signs, and nodes of a rod that never have as much.
+SPOILT, FINE = 0.1, 1000
 # Nodes that are not worth another folding.
 FEW = 6
 # Unknowns of an element at node i, and at node j with F_n behind them.
@@ -107,20 +107,21 @@ def negative_directions(tangent: Blocks) -> int | None:
     Raises:
         SingularTangentError: There seem to be some, but elements are so short beside spans that it may be round-off.
     """
-    negative, spoilt = 0, 0.0
-    for begin, end in pairwise(tangent.first):
-        found, rounded = _negative(tangent.diagonal[begin:end], tangent.upper[begin : end - 1])
+    rods = [(tangent.diagonal[a:b], tangent.upper[a : b - 1]) for a, b in pairwise(tangent.first)]
+    negative = 0
+    for D, U in rods:
+        found, _ = _negative(D, U)
         if found is None:
             return None
-        negative, spoilt = negative + found - (end - begin - 1), max(spoilt, rounded)
-    if negative and spoilt > SPOILT:
+        negative += found - (len(D) - 1)
+    if negative and any(_negative(D, U, _rounded(D))[1] > SPOILT for D, U in rods if len(D) > FINE):
         raise SingularTangentError
     return negative
 
 
-def _negative(D: Array, U: Array) -> tuple[int | None, float]:
+def _negative(D: Array, U: Array, rounded: Array | None = None) -> tuple[int | None, float]:
     """Negative eigenvalues of the blocks of one rod, those of F_n included, and the most round-off in any block."""
-    negative, rounded, spoilt = 0, _rounded(D), 0.0
+    negative, spoilt = 0, 0.0
     while len(D) > FEW:
         odd = D[1::2]
         unit = _units(np.abs(odd))
@@ -128,11 +129,15 @@ def _negative(D: Array, U: Array) -> tuple[int | None, float]:
         λ = np.linalg.eigvalsh(odd)
         if not np.abs(λ).min() > SINGULAR:
             return None, spoilt
-        negative, spoilt = negative + int((λ < 0.0).sum()), max(spoilt, float((rounded[1::2] * unit[:, 0] ** 2).max()))
+        negative += int((λ < 0.0).sum())
+        if rounded is not None:
+            spoilt = max(spoilt, float((rounded[1::2] * unit[:, 0] ** 2).max()))
         # Elimination keeps more digits of small and large entries apart than eigenvectors do.
         D, U, rounded = _folded(D, U, np.linalg.inv(odd) * unit[:, :, None] * unit[:, None], rounded)
     unit = _units(np.abs(D))
-    λ, spoilt = np.linalg.eigvalsh(_whole(D, U, unit)), max(spoilt, float((rounded * unit[:, 0] ** 2).max()))
+    λ = np.linalg.eigvalsh(_whole(D, U, unit))
+    if rounded is not None:
+        spoilt = max(spoilt, float((rounded * unit[:, 0] ** 2).max()))
     return None if not np.abs(λ).min() > SINGULAR else negative + int((λ < 0.0).sum()), spoilt
 
 
@@ -164,16 +169,18 @@ def _units(size: Array) -> Array:
     return np.exp2(np.round(np.log2(unit)))
 
 
-def _folded(D: Array, U: Array, inverse: Array, rounded: Array) -> tuple[Array, Array, Array]:
+def _folded(D: Array, U: Array, inverse: Array, rounded: Array | None) -> tuple[Array, Array, Array | None]:
     """What is left when every second node is eliminated, and the round-off in it."""
     left, right = U[::2], np.swapaxes(U[1::2], 1, 2)
     n_right = len(right)
     from_left, from_right = left @ inverse, right @ inverse[:n_right]
-    even, off = D[::2].copy(), np.hypot(rounded[::2], _rounded(D[::2]))
+    even, off = D[::2].copy(), None
     even[: len(left)] -= from_left @ np.swapaxes(left, 1, 2)
     even[1 : n_right + 1] -= from_right @ np.swapaxes(right, 1, 2)
-    for beside, along in ((slice(len(left)), from_left), (slice(1, n_right + 1), from_right)):
-        off[beside] = np.hypot(off[beside], _handed_on(along) * rounded[1::2][: len(along)])
+    if rounded is not None:
+        off = np.hypot(rounded[::2], _rounded(D[::2]))
+        for beside, along in ((slice(len(left)), from_left), (slice(1, n_right + 1), from_right)):
+            off[beside] = np.hypot(off[beside], _handed_on(along) * rounded[1::2][: len(along)])
     return even, -from_left[:n_right] @ np.swapaxes(right, 1, 2), off
 
 
