@@ -115,6 +115,14 @@ def test_solvers_run_on_one_thread_and_leave_nothing_behind(interpreter, tmp_pat
     assert not (tmp_path / "LOG").exists()
 
 
+def test_solvers_know_nothing_of_the_mpi_that_asks(interpreter, monkeypatch):
+    """OpenSees brings an MPI of its own, which took what ours had left for its own and ended: refused on all meshes."""
+    monkeypatch.setenv("PMIX_RANK", "0")
+    monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "1")
+    with pytest.raises(Refused, match=r"last words: \[\] \[\]"):
+        ask(interpreter("echo [$PMIX_RANK] [$OMPI_COMM_WORLD_SIZE] >&2").python, QUESTION)
+
+
 def at_once() -> int:
     """How many of the others are asked for whole loads, and by a quick report."""
     return sum(not others[0].relaxes for others in rodothers.together())

@@ -29,6 +29,8 @@ ONE_THREAD = dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"),
     "1",
 )
+# What an MPI that has begun leaves to its children. OpenSees has another one within, which takes it for its own.
+OF_MPI = ("OMPI_", "PMIX_", "PMI_", "ORTE_", "PRTE_", "HYDRA_")
 
 
 class Refused(RuntimeError):  # noqa: N818
@@ -132,7 +134,8 @@ def spoken(python: Path, question: Mapping[str, Any], patience: float) -> Said:
         Refused: It cannot be run.
     """
     command = [str(python), "-m", "verification.peers.talk"]
-    surroundings = os.environ | ONE_THREAD | {"PYTHONPATH": str(ROOT), "PYTHONNOUSERSITE": "1"}
+    left = {name: value for name, value in os.environ.items() if not name.startswith(OF_MPI)}
+    surroundings = left | ONE_THREAD | {"PYTHONPATH": str(ROOT), "PYTHONNOUSERSITE": "1"}
     # A folder to run in, because some write logs there; files to read from and write to, because PETSc ends our own
     # process where a pipe breaks, as it does when a child dies early, and because they keep what was said till then.
     with tempfile.TemporaryDirectory() as folder:
