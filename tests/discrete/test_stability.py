@@ -174,7 +174,7 @@ def test_a_failure_near_a_limit_point_names_it():
 def test_a_failure_on_an_unstable_path_says_where_that_began():
     """A perfect column pushed together along its axis, until nothing is left of it at t = 1."""
     supports = [dr.Clamp("start"), dr.Prescribed("end", displacement=(-1.0, 0, 0), rotation=(0, 0, 0))]
-    with pytest.raises(dr.NotConverged, match=r"unstable from t = .* on|critical point was passed") as failure:
+    with pytest.raises(dr.NotConverged, match=r"unstable from t = [\d.e-]+ on") as failure:
         discrete.solve(dr.Scene([FLAT.straight(KIRCHHOFF)], supports), elements=6)
     result = failure.value.result
     assert 0.99 < result.log[-1].t == failure.value.t < 1.0
