@@ -102,12 +102,16 @@ def by_both(scenario: Scenario) -> GrooveModels:
     found = [_timed(scenario, model) for model in MODELS]
     courses = [course(result, scenario) for result, _ in found]
     i = min(_met(over) for over in courses)
-    width = np.stack([over.width for over in courses])
+    # They need not come to rest at the same time.
+    n = min(len(over.t) for over in courses)
+    width = np.stack([over.width[:n] for over in courses])
     return GrooveModels(
         title=f"{scenario.fibres} fibres, {scenario.kind}, {scenario.elements} elements",
-        t=_listed(courses[0].t),
-        **{name: tuple(_listed(getattr(over, name)) for over in courses) for name in ("width", "wound", "walls")},
-        fibres=tuple(_listed(over.fibres) for over in courses),
+        t=_listed(courses[0].t[:n]),
+        **{
+            name: tuple(_listed(getattr(over, name)[:n]) for over in courses)
+            for name in ("width", "wound", "walls", "fibres")
+        },
         seconds=tuple(seconds for _, seconds in found),
         steps=tuple(len(result.log) for result, _ in found),
         met=float(courses[0].t[i]),
