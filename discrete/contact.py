@@ -53,7 +53,7 @@ class Contacts:
         for contact in scene.walls:
             a, b = (0, len(mesh.s)) if contact.rod is None else (contact.rod, contact.rod + 1)
             mine = slice(int(mesh.first[a]), int(mesh.first[b]))
-            touch = Touch(contact, radius[mine], scene.motion.t_end)
+            touch = Touch(contact, radius[mine], scene.motion)
             self.pairs.append(Pair(contact, mine, share[mine], touch))
         self.renews = any(isinstance(contact.law, AugmentedLagrangian) for contact in scene.walls)
         self._rubs = any(pair.rubs for pair in self.pairs)
@@ -232,15 +232,12 @@ class Contacts:
         if t != self._goal or not self._answered(x, R):
             self.begin(t)
         self.force(x, R)
-        stored = rubbed = pushed = 0.0
+        sums = np.zeros(4)
         for pair in self.pairs:
             booked = pair.touch.accept()
-            stored += float(pair.share @ booked.stored)
-            rubbed += float(pair.share @ booked.rubbed)
-            pushed += float(pair.share @ booked.pushed)
+            sums += [float(pair.share @ part) for part in (booked.stored, booked.rubbed, booked.pushed, booked.damped)]
         self._R_0, self._pattern = R, self.pattern
-        unit = self._units.moment
-        return Booking(stored / unit, rubbed / unit, pushed / unit)
+        return Booking(*(sums / self._units.moment).tolist())
 
     def in_space(self, x: Array) -> Array:
         """Positions in SI units, shape (n_nodes, 3)."""

@@ -95,9 +95,10 @@ class Ledger:
         now["damping"] -= damped
         now["numerical"] += guides - lost
         if booked is not None and step.pressed is not None:
-            given = float(np.vdot(step.pressed.T[:AXIAL], moved)) - booked.pushed + booked.rubbed
+            given = float(np.vdot(step.pressed.T[:AXIAL], moved)) - booked.pushed + booked.rubbed + booked.damped
             now["numerical"] += given + booked.stored - now["contact"]
             now["contact"] = booked.stored
+            now["damping"] -= booked.damped
             now["friction"] -= booked.rubbed
             now["wall work"] += booked.pushed
 

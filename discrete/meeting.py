@@ -202,10 +202,9 @@ class Encounters:
         if t != self._goal or not self._answered(x, R):
             self.begin(t)
         self.force(x, R)
-        booked = [meeting.accept() for meeting in self._meetings]
+        booked = np.array([meeting.accept() for meeting in self._meetings]).sum(axis=0) / self._units.moment
         self._R_0, self.stirred = R, False
-        unit = self._units.moment
-        return Booking(sum(stored for stored, _ in booked) / unit, sum(rubbed for _, rubbed in booked) / unit)
+        return Booking(float(booked[0]), float(booked[1]), damped=float(booked[2]))
 
     def _answered(self, x: Array, R: Array) -> bool:
         """Whether `force` was asked for last there."""

@@ -201,7 +201,8 @@ class Surroundings:
     def accept(self, x: Array, R: Array, t: float) -> Booking:
         """The step to this state counts."""
         booked = [one.accept(x, R, t) for one in self._both]
-        return Booking(*(sum(values) for values in zip(*((b.stored, b.rubbed, b.pushed) for b in booked), strict=True)))
+        each = ((b.stored, b.rubbed, b.pushed, b.damped) for b in booked)
+        return Booking(*(sum(values) for values in zip(*each, strict=True)))
 
 
 def surroundings_of(scene: Scene, mesh: Mesh) -> Surroundings | None:

@@ -102,8 +102,10 @@ class Booking:
         stored: What contact stores at its end.
         rubbed: What friction took.
         pushed: Work of moving walls on the rods.
+        damped: What damping of contact took.
     """
 
     stored: float = 0.0
     rubbed: float = 0.0
     pushed: float = 0.0
+    damped: float = 0.0

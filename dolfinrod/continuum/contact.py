@@ -59,7 +59,7 @@ class Contacts:
         self.sides = []
         for contact in scene.walls:
             nodes = np.flatnonzero(rod == contact.rod) if contact.rod is not None else np.arange(len(rod))
-            touch = Touch(contact, radii[rod[nodes]], scene.motion.t_end, level)
+            touch = Touch(contact, radii[rod[nodes]], scene.motion, level)
             self.sides.append(Side(touch, nodes, lengths[nodes]))
         self.place(0.0)
 
@@ -198,12 +198,12 @@ class Contacts:
         return not self._on_any_rank(not all(done))
 
     def accept(self) -> list[float]:
-        """The step counts; energies that this rank's nodes have rubbed off and were given by walls, in EI/L."""
+        """The step counts; energies that this rank's nodes have rubbed off, were given by walls and lost by damping."""
         self._respond()
-        self._q_0, total = self._problem.x[self.q], np.zeros(2)
+        self._q_0, total = self._problem.x[self.q], np.zeros(3)
         for side in self.sides:
             booked = side.touch.accept()
-            total += [float(side.share[:, 0] @ part) for part in (booked.rubbed, booked.pushed)]
+            total += [float(side.share[:, 0] @ part) for part in (booked.rubbed, booked.pushed, booked.damped)]
         return [float(part) / self._problem.placement.moment for part in total]
 
     def stored(self) -> float:

@@ -77,20 +77,21 @@ class Ledger:
         parts = self._forces()
         resisted = parts @ change
         pushed = parts[:, self._held].sum(axis=0) @ change[self._held]
-        rubbed = [0.0, 0.0] if problem.contacts is None else problem.contacts.accept()
+        rubbed = [0.0, 0.0, 0.0] if problem.contacts is None else problem.contacts.accept()
         sums = self._summed([*self._energies(), *resisted, pushed, self._strain.dissipated, *rubbed])
         self._now = dict(zip(self._stored, sums, strict=False))
         gained = {name: self._now[name] - before[name] for name in before}
-        inertia, elastic, loads, drag, contact, support, dissipated, rubbed_off, walls = sums[len(self._stored) :]
+        booked = sums[len(self._stored) :]
+        inertia, elastic, loads, drag, contact, support, dissipated, rubbed_off, walls, damped = booked
         self._works["load work"] += gained["potential"] - loads
         self._works["drag"] -= drag
         self._works["support work"] += support
-        self._works["damping"] -= dissipated
+        self._works["damping"] -= dissipated + damped
         self._works["numerical"] += gained["kinetic"] + gained["strain"] - inertia - elastic + dissipated
         if problem.contacts is not None:
             self._works["friction"] -= rubbed_off
             self._works["wall work"] += walls
-            self._works["numerical"] += gained["contact"] - contact + rubbed_off - walls
+            self._works["numerical"] += gained["contact"] - contact + rubbed_off + damped - walls
 
     def _forces(self) -> Array:
         """Residuals of the step's parts at this rank's own dofs, along the sphere of the balance, shape (5, n)."""

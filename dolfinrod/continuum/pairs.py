@@ -211,11 +211,11 @@ class Pairs:
         return True
 
     def accept(self) -> list[float]:
-        """The step counts; energy rubbed off among this rank's elements, and none given by walls, in EI/L."""
+        """The step counts; energies rubbed off among this rank's elements, none given by walls, and lost by damping."""
         self._respond()
         self._q_0 = self._problem.x[self.q]
-        rubbed = sum(meeting.accept()[1] for meeting in self.meetings)
-        return [rubbed / self._problem.placement.moment, 0.0]
+        booked = np.array([meeting.accept() for meeting in self.meetings]).sum(axis=0) / self._problem.placement.moment
+        return [float(booked[1]), 0.0, float(booked[2])]
 
     def stored(self) -> float:
         """Energy that this rank's elements store, in EI/L."""

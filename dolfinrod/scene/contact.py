@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.friction import Coulomb, CreepingCoulomb, Friction
 from dolfinrod.scene.history import History
-from dolfinrod.scene.pressure import AugmentedLagrangian, NormalLaw, Penalty, SmoothPenalty
+from dolfinrod.scene.normallaw import NormalLaw
+from dolfinrod.scene.pressure import AugmentedLagrangian, Penalty, SmoothPenalty
 from dolfinrod.scene.quantity import assign, rod_index
 from dolfinrod.scene.surfaces import SURFACES, Surface
 

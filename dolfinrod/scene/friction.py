@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 from dolfinrod.scene.errors import SceneError, quoted
 from dolfinrod.scene.quantity import assign, nonnegative, positive
 
-__all__ = ["Coulomb", "CreepingCoulomb", "Friction"]
+if TYPE_CHECKING:
+    from dolfinrod.scene.normallaw import NormalLaw
+
+__all__ = ["Coulomb", "CreepingCoulomb", "Friction", "anchoring"]
 
 Array = NDArray[np.float64]
 
@@ -73,3 +76,9 @@ class CreepingCoulomb:
 
 
 Friction = Coulomb | CreepingCoulomb
+
+
+def anchoring(friction: Friction | None, law: NormalLaw) -> float:
+    """Stiffness of anchors, their own or that of the law against penetration [N/m²]."""
+    own = friction.eps_T if isinstance(friction, Coulomb) else None
+    return law.eps_N if own is None else own

@@ -143,8 +143,8 @@ SURFACES = {
 }
 STIFFNESS = Quantity("N/m**2")
 PENALTIES = {
-    "penalty": Kind(Penalty, {"eps_N": STIFFNESS, "g_0": METRE}),
-    "smooth_penalty": Kind(SmoothPenalty, {"eps_N": STIFFNESS, "foot": METRE, "g_0": METRE}),
+    "penalty": Kind(Penalty, {"eps_N": STIFFNESS, "g_0": METRE, "damping": SECOND}),
+    "smooth_penalty": Kind(SmoothPenalty, {"eps_N": STIFFNESS, "foot": METRE, "g_0": METRE, "damping": SECOND}),
 }
 LAWS = {"paper": Penalty.paper, "tight": Penalty.tight}
 DRY = {"coulomb": Kind(Coulomb, {"mu": Plain(), "eps_T": STIFFNESS, "at": Plain()})}

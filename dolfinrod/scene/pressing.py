@@ -17,10 +17,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from dolfinrod.scene.damped import elastic
 from dolfinrod.scene.pushing import GRAZING, followed, touching
 
 if TYPE_CHECKING:
-    from dolfinrod.scene.pressure import NormalLaw
+    from dolfinrod.scene.damped import Law
 
 __all__ = ["Pressing"]
 
@@ -39,15 +40,16 @@ class Pressing:
         radius: Of the rod at each point, shape (n,) [m].
 
     Attributes:
-        law: The same, softened or not.
+        law: That of the step, softened or not.
     """
 
-    def __init__(self, law: NormalLaw, radius: Array) -> None:
-        self._full, self._radius, self._firm = law, radius, 1.0
-        self.begin()
+    def __init__(self, law: Law, radius: Array) -> None:
+        self._radius, self._firm = radius, 1.0
+        self.begin(law)
 
-    def begin(self) -> None:
-        """An iteration begins."""
+    def begin(self, law: Law) -> None:
+        """An iteration begins, under the law of its step."""
+        self._full, self._g_0 = law, np.full(len(self._radius), law.g_0)
         self.soften(1.0)
         self._worst = np.inf
         self._kept = np.zeros(len(self._radius), dtype=bool)
@@ -58,7 +60,7 @@ class Pressing:
         return self._kept
 
     def _just_touch(self, gap: Array) -> Flags:
-        return np.asarray(np.abs(gap - self.law.g_0) <= GRAZING * self._radius)
+        return np.asarray(np.abs(gap - self._g_0) <= GRAZING * self._radius)
 
     def soften(self, by: float) -> None:
         """Begin with a law softer by a factor, so that what is pressed shows in a few iterations."""
@@ -92,7 +94,7 @@ class Pressing:
 
     def _grazing(self, p: Array, slope: Array, pressed: Flags, gap: Array) -> tuple[Array, Array, Flags]:
         """What just touches is about to be pressed: without its stiffness a rod that lies on a wall would be free."""
-        p, slope, touch = touching(p, slope, pressed, gap, self.law.g_0, self.law.eps_N, self._radius)
+        p, slope, touch = touching(p, slope, pressed, gap, self._g_0, self.law.eps_N, self._radius)
         return p, slope, touch
 
     def mean(self, start: Array, gap: Array, λ: Array) -> tuple[Array, Array, Flags, Array]:
@@ -112,7 +114,7 @@ class Pressing:
         was, X_0, p_0, p_X = self._led
         way = X - X_0
         hoped = p_0 + np.einsum("ni,ni->n", p_X, way)
-        ahead = gap + np.einsum("ni,ni->n", normal, way) < self.law.g_0
+        ahead = gap + np.einsum("ni,ni->n", normal, way) < self._g_0
         self._ahead = np.where(was, hoped > 0.0, ahead), np.where(was, np.maximum(p_0, 0.0), 0.0)
         return not np.array_equal(self._ahead[0], was)
 
@@ -161,6 +163,10 @@ class Pressing:
             self.soften(1.0)
         self._worst = worst
         return False
+
+    def damped(self, start: Array, gap: Array, p: Array, *, mean: bool) -> Array:
+        """Work of damping in the step, shape (n,) [J/m]; arguments as of `elastic`."""
+        return (p - elastic(self._full, start, gap, p, mean=mean)) * (start - gap)
 
     def led(self, X: Array, p: Array, p_X: Array, pressed: Flags) -> None:
         """From here the next linear step is taken; arguments as for `at`, p_X of shape (n, 3)."""

@@ -3,50 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dolfinrod.scene.quantity import assign, number, positive
+from dolfinrod.scene.quantity import assign, nonnegative, number, positive
 
-__all__ = ["AugmentedLagrangian", "NormalLaw", "Penalty", "SmoothPenalty"]
+__all__ = ["AugmentedLagrangian", "Penalty", "SmoothPenalty"]
 
 Array = NDArray[np.float64]
-
-
-class NormalLaw(Protocol):
-    """Contract: a line load p(g) that falls with the gap g, zero from g_0 on."""
-
-    @property
-    def eps_N(self) -> float:
-        """Largest slope −dp/dg [N/m²]."""
-        ...
-
-    @property
-    def g_0(self) -> float:
-        """Gap at which contact begins [m]."""
-        ...
-
-    def softened(self, by: float) -> NormalLaw:
-        """The same, softer by a factor."""
-        ...
-
-    def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
-        """p and dp/dg, shapes (n,) [N/m, N/m²], at gaps g [m] and multipliers λ [N/m]."""
-        ...
-
-    def drawn(self, g: Array, λ: Array) -> tuple[Array, Array]:
-        """The same for points that an iteration keeps pressed though they have left the wall: there p is below zero."""
-        ...
-
-    def mean(self, g: Array, h: Array, λ: Array) -> tuple[Array, Array]:
-        """Mean of p over gaps from g to h, with which work is the difference of energies; and its slope in h."""
-        ...
-
-    def energy(self, g: Array, λ: Array) -> Array:
-        """∫ p dg from g to g_0, shape (n,) [N]."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -54,20 +20,30 @@ class Penalty:
     """Line load that grows in proportion to how far a rod has come within g_0, p = ε_N (g_0 − g), Eq. 27.
 
     g is the gap between the surface of the rod and the wall. A wall under a line load q is met at g = g_0 − q/ε_N.
+    With damping a rod in motion feels max(0, p + τ dp/dt), which never pulls: it leaves slower than it came.
 
     Args:
         eps_N: ε_N, the paper's c [N/m²].
         g_0: The paper's ε_0, where contact begins [m].
+        damping: Retardation time τ in motions, 0: none; a mass m that strikes has the damping ratio ½ τ √(ε_N/m) [s].
 
     Raises:
-        SceneError: A stiffness that is not positive.
+        SceneError: A stiffness that is not positive, a time below zero.
+
+    Source: Schwager & Pöschel, Granular Matter 9, 2007, DOI 10.1007/s10035-007-0065-z (the coefficient of restitution).
     """
 
     eps_N: float
     g_0: float = 0.0
+    damping: float = 0.0
 
     def __post_init__(self) -> None:
-        assign(self, eps_N=positive(self.eps_N, "Penalty.eps_N", "N/m²"), g_0=number(self.g_0, "Penalty.g_0", "m"))
+        assign(
+            self,
+            eps_N=positive(self.eps_N, "Penalty.eps_N", "N/m²"),
+            g_0=number(self.g_0, "Penalty.g_0", "m"),
+            damping=nonnegative(self.damping, "Penalty.damping", "s"),
+        )
 
     @classmethod
     def paper(cls) -> Penalty:
@@ -82,6 +58,10 @@ class Penalty:
     def softened(self, by: float) -> Penalty:
         """See `NormalLaw`."""
         return replace(self, eps_N=self.eps_N / by)
+
+    def gap(self, p: Array) -> Array:
+        """See `NormalLaw`."""
+        return self.g_0 - p / self.eps_N
 
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`; λ has no part in it."""
@@ -115,14 +95,16 @@ class SmoothPenalty:
         eps_N: Slope beyond the foot [N/m²].
         foot: w, the width of the foot [m].
         g_0: Gap where contact begins [m].
+        damping: Retardation time τ in motions, as of `Penalty` [s].
 
     Raises:
-        SceneError: A stiffness or width that is not positive.
+        SceneError: A stiffness or width that is not positive, a time below zero.
     """
 
     eps_N: float
     foot: float
     g_0: float = 0.0
+    damping: float = 0.0
 
     def __post_init__(self) -> None:
         assign(
@@ -130,11 +112,17 @@ class SmoothPenalty:
             eps_N=positive(self.eps_N, "SmoothPenalty.eps_N", "N/m²"),
             foot=positive(self.foot, "SmoothPenalty.foot", "m"),
             g_0=number(self.g_0, "SmoothPenalty.g_0", "m"),
+            damping=nonnegative(self.damping, "SmoothPenalty.damping", "s"),
         )
 
     def softened(self, by: float) -> SmoothPenalty:
         """See `NormalLaw`."""
         return replace(self, eps_N=self.eps_N / by)
+
+    def gap(self, p: Array) -> Array:
+        """See `NormalLaw`."""
+        δ = p / self.eps_N
+        return self.g_0 - np.where(δ < 0.5 * self.foot, np.sqrt(2.0 * self.foot * δ), δ + 0.5 * self.foot)
 
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`; λ has no part in it."""
@@ -187,6 +175,7 @@ class AugmentedLagrangian:
     eps_N: float
     tolerance: float
     g_0: ClassVar[float] = 0.0
+    damping: ClassVar[float] = 0.0
 
     def __post_init__(self) -> None:
         assign(
@@ -198,6 +187,10 @@ class AugmentedLagrangian:
     def softened(self, by: float) -> AugmentedLagrangian:
         """See `NormalLaw`."""
         return replace(self, eps_N=self.eps_N / by)
+
+    def gap(self, p: Array) -> Array:
+        """See `NormalLaw`."""
+        return -p / self.eps_N
 
     def pressure(self, g: Array, λ: Array) -> tuple[Array, Array]:
         """See `NormalLaw`."""

@@ -37,7 +37,7 @@ def followed(p: Array, torn: Flags, X: Array, was: Flags, X_0: Array, p_0: Array
 
 @compiled
 def touching(
-    p: Array, slope: Array, pressed: Flags, gap: Array, g_0: float, eps_N: float, radius: Array
+    p: Array, slope: Array, pressed: Flags, gap: Array, g_0: Array, eps_N: float, radius: Array
 ) -> tuple[Array, Array, Flags]:
     """Pressures and slopes of what is pressed or just touches, zero for the rest, and which points these are."""
     n = len(p)
@@ -45,7 +45,7 @@ def touching(
     for i in range(n):
         if pressed[i]:
             acting[i], slopes[i] = p[i], slope[i]
-        elif abs(gap[i] - g_0) <= GRAZING * radius[i]:
+        elif abs(gap[i] - g_0[i]) <= GRAZING * radius[i]:
             slopes[i], touch[i] = -eps_N, True
     return acting, slopes, touch
 

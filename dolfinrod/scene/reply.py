@@ -67,8 +67,10 @@ class Booked:
         stored: What contact stores at the end of the step, in penetrations and anchors.
         rubbed: What friction took in the step.
         pushed: Work of the moving wall on the rods.
+        damped: What damping of the contact took.
     """
 
     stored: Array
     rubbed: Array
     pushed: Array
+    damped: Array

@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from dolfinrod.scene.books import rubbed_off, wall_work
 from dolfinrod.scene.creeping import against, creeping_gradient
-from dolfinrod.scene.friction import Coulomb, CreepingCoulomb
+from dolfinrod.scene.damped import in_step
+from dolfinrod.scene.friction import Coulomb, CreepingCoulomb, anchoring
+from dolfinrod.scene.motion import Dynamic
 from dolfinrod.scene.outward import felt, into_space, onto_wall
 from dolfinrod.scene.piercing import pierces
 from dolfinrod.scene.pivoting import Outlook
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from dolfinrod.scene.contact import Contact
+    from dolfinrod.scene.motion import Motion
 
 __all__ = ["Touch"]
 
@@ -42,21 +45,22 @@ class Touch:
     Args:
         contact: The surface and its laws.
         radius: Of the rod at each point, shape (n,) [m].
-        t_end: Where the time of the scene ends.
+        motion: Of the scene.
         level: Where in a step forces act: 1 at its end, ½ in the middle.
+
+    Attributes:
+        slip: Way of the anchors under pressure so far, shape (n,) [m].
     """
 
-    def __init__(self, contact: Contact, radius: Array, t_end: float, level: float = 1.0) -> None:
-        self.contact, self._radius, self._t_end, self._level = contact, radius, t_end, level
+    def __init__(self, contact: Contact, radius: Array, motion: Motion, level: float = 1.0) -> None:
+        self.contact, self._radius, self._motion, self._level = contact, radius, motion, level
         self._friction, self._pressing = contact.friction, Pressing(contact.law, radius)
         self.open = len(radius) if self._friction is None and not isinstance(contact.law, SmoothPenalty) else 0
         self._none, self._all = np.zeros(len(radius), dtype=bool), np.ones(len(radius), dtype=bool)
         self.adopt, self.settle = self._pressing.adopt, self._pressing.settle
-        anchors = self._friction.eps_T if isinstance(self._friction, Coulomb) else None
-        self._stiffness = contact.law.eps_N if anchors is None else anchors
+        self._stiffness = anchoring(self._friction, contact.law)
         self._arm = self._friction.arm(radius) if isinstance(self._friction, Coulomb) else np.zeros_like(radius)
-        self.changed = self.forced = False
-        self.turns = bool(self._arm.any())
+        self.changed, self.forced, self.turns = False, False, bool(self._arm.any())
 
     def place(self, x: Array, t: float) -> None:
         """The rods are at x; nothing is remembered."""
@@ -64,29 +68,29 @@ class Touch:
         closest = self.contact.surface.closest(self._X_0)
         self._gap_0, self._n_0 = closest.distance - self._radius, closest.normal
         n = len(x)
-        self._λ_0, self._slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
+        self._λ_0, self.slip, self._u = np.zeros(n), np.zeros(n), np.zeros((n, 3))
         self._state = self._state_0 = np.full(n, OPEN, dtype=np.int8)
         self.begin(t)
 
     def begin(self, t: float) -> None:
         """A step from where the rods were last accepted leads to time t."""
-        self._λ = self._λ_0.copy()
-        self._pressing.begin()
+        self._λ, law = self._λ_0.copy(), self.contact.law
         self._slid, self._ε_T = np.zeros((len(self._radius), 3)), self._stiffness
         self._clings = self._glides = self._stuck = self._none
         # A gap under load, as multipliers leave it within their tolerance, is no way yet to go.
-        unloaded = self._pressing.law.pressure(self._gap_0, self._λ)[0] == 0.0
-        self._afar = unloaded & (self._gap_0 - self._pressing.law.g_0 > GRAZING * self._radius)
+        unloaded = law.pressure(self._gap_0, self._λ)[0] == 0.0
+        self._afar = unloaded & (self._gap_0 - law.g_0 > GRAZING * self._radius)
         # Where the rods were placed nothing moves yet.
         self._t, dt = t, t - self._t_0
         self._rate = 1.0 / dt if dt > 0.0 else 0.0
+        self._pressing.begin(in_step(law, self._gap_0, self._rate if isinstance(self._motion, Dynamic) else 0.0))
         self._end, self._acting = self._pose(t), self._pose(self._t_0 + self._level * dt)
-        motion, end = self.contact.surface.motion, self._t_end
+        motion, end = self.contact.surface.motion, self._motion.t_end
         self._wall_turn = np.zeros(3) if motion is None else motion.turn(t, end) - motion.turn(self._t_0, end)
 
     def _pose(self, t: float) -> Pose:
         motion = self.contact.surface.motion
-        return REST if motion is None else motion.pose(t, self._t_end)
+        return REST if motion is None else motion.pose(t, self._motion.t_end)
 
     def respond(self, x: Array, turn: Array) -> Reply:
         """What acts where the step has led.
@@ -131,7 +135,7 @@ class Touch:
         pressed, none = Pressed(*few), np.zeros((len(on), 3))
         if not isinstance(self._friction, Coulomb) or not len(on):
             return Step(X, turned, gap, at_end, on, pressed, none[:, 0], none, none, None)
-        past = (self._u, self._afar, gap, self._gap_0, self._pressing.law.g_0)
+        past = (self._u, self._afar, gap, self._gap_0, self.contact.law.g_0)
         share, w, v = passed(on, X, self._X_0, turned, pressed.n, pressed.radius, *past)
         rubbing = rubbed(pressed, v, self._friction.mu, self._ε_T, self._clings[on], self._glides[on], self._slid[on])
         self._slid[:] = 0.0
@@ -155,7 +159,7 @@ class Touch:
         if step.rubbing is not None:
             assert isinstance(self._friction, Coulomb)
             law = self._friction.mu, self._ε_T
-            t_x, *turning = rubbing_slopes(step, self._gap_0[step.on], self._pressing.law.g_0, *law)
+            t_x, *turning = rubbing_slopes(step, self._gap_0[step.on], self.contact.law.g_0, *law)
             return self._in_space(f_x + t_x, *turning)
         if isinstance(self._friction, CreepingCoulomb):
             v, speed = against((self._x - self._x_0)[step.on], self._rate, self._friction.v_0)
@@ -214,23 +218,19 @@ class Touch:
         on, anchored, traction = step.on[:0], step.w, step.w
         if step.rubbing is not None:
             on, anchored, traction = step.on, step.rubbing.anchored, step.rubbing.traction
-            self._slip[on] += step.rubbing.slipped
+            self.slip[on] += step.rubbing.slipped
         rubbed, self._u = rubbed_off(self._u, self._ε_T, on, anchored, traction, step.w)
         rubbed = -np.einsum("ni,ni->n", reply.traction, moved) if creeps else rubbed
+        damped = self._pressing.damped(self._gap_0, step.gap, reply.pressure, mean=self._level < 1.0)
         self._x_0, self._X_0, self._gap_0, self._t_0 = self._x, step.X, step.gap, self._t
         self._n_0 = step.normal
         self._λ_0, self._state_0 = self._λ.copy(), self._state
-        return Booked(self.stored(), rubbed, pushed)
+        return Booked(self.stored(), rubbed, pushed, damped)
 
     def stored(self) -> Array:
         """Energy per length in penetrations and anchors at the start of the step, shape (n,) [J/m]."""
         held = 0.5 * self._ε_T * np.einsum("ni,ni->n", self._u, self._u)
         return np.asarray(self._pressing.law.energy(self._gap_0, self._λ_0) + held)
-
-    @property
-    def slip(self) -> Array:
-        """Way of the anchors under pressure so far, shape (n,) [m]."""
-        return self._slip
 
     def memory(self) -> dict[str, Array]:
         """All that the points remember, one row a point: what `recall` takes."""
@@ -238,13 +238,13 @@ class Touch:
             "x": self._x_0.copy(),
             "anchored": self._u.copy(),
             "multiplier": self._λ_0.copy(),
-            "slip": self._slip.copy(),
+            "slip": self.slip.copy(),
             "state": self._state_0.astype(float),
         }
 
     def recall(self, memory: Mapping[str, Array], t: float) -> None:
         """Go back, or on, to what was remembered at time t."""
         self.place(memory["x"], t)
-        self._u, self._λ_0, self._slip = (memory[name].copy() for name in ("anchored", "multiplier", "slip"))
+        self._u, self._λ_0, self.slip = (memory[name].copy() for name in ("anchored", "multiplier", "slip"))
         self._state = self._state_0 = memory["state"].astype(np.int8)
         self.begin(t)

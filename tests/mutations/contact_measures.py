@@ -99,7 +99,7 @@ def tangent(_solve: Solve) -> float:
     random, n, h = np.random.default_rng(1), 40, 1e-7
     wall = dr.WallMotion(rotation=(0, 0, 1e-3))
     contact = dr.Contact(dr.Cylinder((0, 0, 0), (0, 0, 1), on.DRUM, motion=wall), on.PENALTY, on.ROUGH)
-    touch = Touch(contact, np.full(n, RADIUS), 1.0)
+    touch = Touch(contact, np.full(n, RADIUS), dr.Static())
     φ = 2.0 * np.pi * random.random(n)
     out = np.stack([np.cos(φ), np.sin(φ), np.zeros(n)], axis=1)
     x, way, spin = (on.DRUM + RADIUS) * out, *random.standard_normal((2, n, 3))
@@ -140,7 +140,7 @@ def tries_again(_solve: Solve) -> float:
     No scene: how steps come to fail is a matter of solvers. Shorter attempts begin anew, or from what was remembered.
     """
     part, still = np.linspace(0.5, 1.0, 5), np.zeros((5, 3))
-    touch = Touch(on.floor(FLAT, dr.AugmentedLagrangian(EPS, 1e-9), on.ROUGH), np.full(5, RADIUS), 2.0)
+    touch = Touch(on.floor(FLAT, dr.AugmentedLagrangian(EPS, 1e-9), on.ROUGH), np.full(5, RADIUS), dr.Static(t_end=2.0))
 
     def led(along: float, deep: float) -> Array:
         """What acts where the points have been led, and then becomes their multipliers; deep by less each time."""

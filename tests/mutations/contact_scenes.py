@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dolfinrod as dr
 from dolfinrod.scene.friction import Friction
-from dolfinrod.scene.pressure import NormalLaw
+from dolfinrod.scene.normallaw import NormalLaw
 from tests.scenes import FLAT, SKEW, Pose
 
 RADIUS = 0.01

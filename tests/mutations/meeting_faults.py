@@ -126,9 +126,9 @@ def _all_the_way(right: Any, *args: Any) -> tuple[Array, Array]:
     return np.ones_like(share), 0.0 * share_gap
 
 
-def _at_the_end(right: Any, *args: Any, mean: bool = False) -> Any:
+def _at_the_end(right: Any, *args: Any, mean: bool = False, **more: Any) -> Any:
     """The load after a step in place of the mean over it, on the rods half-way."""
-    found = right(*args, mean=mean)
+    found = right(*args, mean=mean, **more)
     if not mean:
         return found
     p, slope = args[2].pressure(found.gap, np.zeros(len(found.gap)))

@@ -205,7 +205,7 @@ def work(_solve: Solve) -> float:
     x = pair(0.0, APART + DEPTH + 1e-3)
     meeting, way = meet(x, level=0.5), above(0.0, 0.0, -DEPTH - 1e-3)
     felt = acting(meeting, x + way)
-    stored, _ = meeting.accept()
+    stored, *_ = meeting.accept()
     return max(
         abs(-np.vdot(felt.force, way) / (0.5 * EPS * DEPTH**2) - 1.0), abs(stored / (0.5 * EPS * DEPTH**2) - 1.0)
     )

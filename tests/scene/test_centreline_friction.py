@@ -19,7 +19,7 @@ N = 20
 def points(friction: dr.Coulomb, level: float) -> Touch:
     """Points pressed against a cylinder, placed."""
     contact = dr.Contact(dr.Cylinder((0, 0, -1), (0, 1, 0), 1.0), dr.Penalty(STIFF), friction)
-    touch = Touch(contact, np.full(N, RADIUS), 1.0, level)
+    touch = Touch(contact, np.full(N, RADIUS), dr.Static(), level)
     touch.place(PLACES, 0.0)
     touch.begin(0.1)
     return touch

@@ -43,7 +43,11 @@ class Point:
 
     def __init__(self, x, surface=None, friction=None, law=PENALTY, level: float = 1.0) -> None:
         contact = dr.Contact(surface or dr.Plane(), law, friction or dr.Coulomb(MU))
-        self.touch, self.x, self.t = Touch(contact, np.array([RADIUS]), 1.0, level), np.asarray(x, dtype=float), 0.0
+        self.touch, self.x, self.t = (
+            Touch(contact, np.array([RADIUS]), dr.Static(), level),
+            np.asarray(x, dtype=float),
+            0.0,
+        )
         self.touch.place(self.x[None], 0.0)
 
     def led(self, x, turn=STILL, dt: float = 0.01) -> Reply:
@@ -195,7 +199,7 @@ def test_without_a_coefficient_there_is_no_friction(level: float) -> None:
     for friction in (dr.Coulomb(0.0), dr.CreepingCoulomb(0.0, 1.0)):
         replies, slopes = [], []
         for rubs in (friction, None):
-            touch = Touch(dr.Contact(dr.Plane(), PENALTY, rubs), np.array([RADIUS]), 1.0, level)
+            touch = Touch(dr.Contact(dr.Plane(), PENALTY, rubs), np.array([RADIUS]), dr.Static(), level)
             touch.place(PRESSED[None], 0.0)
             touch.begin(0.1)
             replies.append(touch.respond(PRESSED[None] + [0.01, 0.02, 0.001], np.array([[0.1, 0.2, 0.3]])))

@@ -271,7 +271,7 @@ def test_surfaces_that_a_mirror_leaves_alone_keep_the_plane(surface: object, mot
 def test_nothing_pushes_points_out_of_a_plane_that_is_kept(surface: object, motion: object, friction: object) -> None:
     rng = np.random.default_rng(1)
     contact = dr.Contact(replace(surface, motion=motion), dr.Penalty(1e3, g_0=10.0), friction)
-    touch = Touch(contact, np.full(30, 0.1), 1.0)
+    touch = Touch(contact, np.full(30, 0.1), dr.Static())
     x, move, turn = rng.normal(size=(3, 30, 3)) * np.array([[[3, 3, 0]], [[0.1, 0.1, 0]], [[0, 0, 0.3]]])
     touch.place(x, 0.0)
     touch.begin(0.1)

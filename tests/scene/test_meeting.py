@@ -22,11 +22,14 @@ Array = NDArray[np.float64]
 STIFF, RADIUS, HALO = 1e3, 0.05, 0.01
 LAW = dr.Penalty(STIFF, HALO)
 LAWS = [LAW, dr.SmoothPenalty(STIFF, 0.01, HALO)]
+# In steps of one second they resist three times as hard as they are stiff.
+DAMPED = [dr.Penalty(STIFF, HALO, damping=3.0), dr.SmoothPenalty(STIFF, 0.01, HALO, damping=3.0)]
 LENGTH, ELEMENTS = 1.0, 8
 S = np.linspace(0.0, LENGTH, ELEMENTS + 1)
 KINDS = ["smooth", "lagrange"]
 every_kind = pytest.mark.parametrize("kind", KINDS)
 every_law = pytest.mark.parametrize("law", LAWS, ids=["penalty", "smooth"])
+every_damped = pytest.mark.parametrize("law", DAMPED, ids=["penalty", "smooth"])
 every_level = pytest.mark.parametrize("level", [1.0, 0.5], ids=["end", "middle"])
 
 
@@ -201,9 +204,62 @@ def test_work_of_a_mean_load_is_what_is_stored(law):
         moved[len(S) :] += way * np.array([0.03, 0.02, -0.7 * HALO])
         start, x_now = meeting._x_0, moved
         work += np.vdot(force(meeting, x_now), x_now - start)
-        stored, rubbed = meeting.accept()
-        assert rubbed == 0.0
+        stored, rubbed, damped = meeting.accept()
+        assert rubbed == damped == 0.0
     assert -work == pytest.approx(stored, rel=2e-3)
+
+
+def inert(x: Array, lines: Strands, law: dr.Penalty | dr.SmoothPenalty, level: float = 1.0) -> Meeting:
+    """Rods with inertia, placed there."""
+    meeting = Meeting(RodContact(law), lines, level, inert=True)
+    meeting.place(x, 0.0)
+    meeting.begin(1.0)
+    return meeting
+
+
+@every_level
+@every_damped
+def test_damping_only_takes_and_the_books_are_closed(law, level):
+    """On the way into contact, and out of it so fast that nothing pushes at last."""
+    x = np.concatenate([straight(0.0, 0.0), straight(1.0, 2 * RADIUS + 1.2 * HALO)])
+    meeting = inert(x, strands("smooth"), law, level)
+    before, taken, most = meeting.stored(), 0.0, 0.0
+    for k, way in enumerate((-0.4, -0.3, -0.3, 0.1, 0.3, 0.3, 0.4)):
+        meeting.begin(k + 1.0)
+        to = x.copy()
+        to[len(S) :] += np.array([0.01, 0.01, way * HALO])
+        work = -np.vdot(force(meeting, to), to - x)
+        after, rubbed, damped = meeting.accept()
+        assert rubbed == 0.0
+        assert damped >= 0.0
+        lost, blur = work - (after - before) - damped, 2e-3 * (abs(work) + abs(after - before))
+        assert abs(lost) <= blur if level < 1.0 else lost >= -blur
+        x, before, taken, most = to, after, taken + damped, max(most, after)
+    assert before == 0.0
+    assert taken > 0.5 * most
+
+
+@every_kind
+@every_level
+@every_damped
+def test_gradient_of_a_damped_load_is_that_of_the_forces(kind, law, level):
+    """Rods side by side that near one another in a step; then ones that part so fast that nothing pushes."""
+    depth = 0.3 * HALO
+    x_0 = np.concatenate([straight(0.0, 0.0), straight(0.0, 2 * RADIUS + HALO - depth)])
+    rng, meeting = np.random.default_rng(1), inert(x_0, strands(kind), law, level)
+    nearer = x_0 + rng.normal(scale=0.05 * depth, size=x_0.shape)
+    nearer[len(S) :, 2] -= 0.3 * depth
+    dx, h = rng.normal(size=x_0.shape), 1e-3 * depth
+    meeting.respond(nearer, np.zeros_like(x_0))
+    change, _ = meeting.gradient().times(dx, np.zeros_like(dx))
+    ways = ((force(meeting, nearer + k * h * dx) - force(meeting, nearer - k * h * dx)) / (2 * k * h) for k in (1, 2))
+    half, whole = ways
+    assert largest((4 * half - whole) / 3 - change) <= 1e-7 * largest(change)
+    apart = x_0.copy()
+    apart[len(S) :, 2] += 0.9 * depth
+    assert not force(meeting, apart).any()
+    assert not meeting.gradient().times(dx, np.zeros_like(dx))[0].any()
+    assert not len(meeting.met().gap)
 
 
 @pytest.mark.parametrize("way", [1, -1], ids=["along", "against"])

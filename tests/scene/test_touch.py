@@ -19,12 +19,20 @@ Array = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
 STIFF, RADIUS = 3e3, 0.05
-LAWS = [dr.Penalty(STIFF, 0.02), dr.SmoothPenalty(STIFF, 0.01, 0.02), dr.AugmentedLagrangian(STIFF, 1e-3)]
+LAWS = [
+    dr.Penalty(STIFF, 0.02),
+    dr.SmoothPenalty(STIFF, 0.01, 0.02),
+    dr.AugmentedLagrangian(STIFF, 1e-3),
+    dr.Penalty(STIFF, 0.02, damping=0.05),
+    dr.SmoothPenalty(STIFF, 0.01, 0.02, damping=0.05),
+]
 FRICTIONS = [None, dr.Coulomb(0.3), dr.Coulomb(5.0, eps_T=1e3), dr.CreepingCoulomb(0.4, 0.1)]
 LEVELS = [1.0, 0.5]
 SURFACES = ["plane", "core", "tube"]
 N = 40
-every_law = pytest.mark.parametrize("law", LAWS, ids=["penalty", "smooth", "augmented"])
+MOTION = dr.Dynamic(t_end=1.0, dt=0.1)
+every_law = pytest.mark.parametrize("law", LAWS, ids=["penalty", "smooth", "augmented", "damped", "smooth damped"])
+every_spring = pytest.mark.parametrize("law", [law for law in LAWS if not isinstance(law, dr.AugmentedLagrangian)])
 every_friction = pytest.mark.parametrize("friction", FRICTIONS, ids=["smooth", "slides", "sticks", "creeps"])
 every_level = pytest.mark.parametrize("level", LEVELS, ids=["end", "middle"])
 every_surface = pytest.mark.parametrize("kind", SURFACES)
@@ -72,7 +80,7 @@ def times(way: Walk) -> Array:
 
 def touch(contact: dr.Contact, way: Walk, level: float = 1.0) -> Touch:
     """Where the way begins."""
-    points = Touch(contact, np.full(way.x.shape[1], RADIUS), 1.0, level)
+    points = Touch(contact, np.full(way.x.shape[1], RADIUS), MOTION, level)
     points.place(way.x[0], 0.1)
     return points
 
@@ -134,6 +142,8 @@ def test_forces_push_and_rub_within_their_limits_and_no_step_gives_energy(law, f
         np.testing.assert_allclose(reply.force, p[:, None] * n + t, atol=8 * EPS * p.max())
         assert (booked.stored >= 0.0).all()
         assert (booked.rubbed >= -1e-12 * STIFF * RADIUS**2).all()
+        assert (booked.damped >= 0.0).all()
+        assert booked.damped.any() == (law.damping > 0.0)
         assert not t[p == 0.0].any()
         if isinstance(friction, dr.Coulomb):
             assert (np.linalg.norm(t, axis=1) <= friction.mu * p * (1 + 8 * EPS)).all()
@@ -147,8 +157,8 @@ def test_forces_push_and_rub_within_their_limits_and_no_step_gives_energy(law, f
 
 
 @every_friction
-@pytest.mark.parametrize("law", LAWS[:2], ids=["penalty", "smooth"])
-def test_work_in_the_middle_of_steps_is_what_is_stored_rubbed_off_or_given_by_the_wall(law, friction) -> None:
+@every_spring
+def test_work_in_the_middle_of_steps_is_what_is_stored_taken_or_given_by_the_wall(law, friction) -> None:
     way = walk(7, 6)
     contact = dr.Contact(surface("plane"), law, friction)
     points = touch(contact, way, 0.5)
@@ -157,12 +167,13 @@ def test_work_in_the_middle_of_steps_is_what_is_stored_rubbed_off_or_given_by_th
     for k, (reply, booked) in enumerate(walked(points, way)):
         work = np.einsum("ni,ni->n", reply.force, way.x[k + 1] - way.x[k])
         work += np.einsum("ni,ni->n", reply.moment, way.turn[k])
-        np.testing.assert_allclose(work, stored - booked.stored - booked.rubbed + booked.pushed, atol=1e-12 * scale)
+        taken = booked.rubbed + booked.damped
+        np.testing.assert_allclose(work, stored - booked.stored - taken + booked.pushed, atol=1e-12 * scale)
         stored = booked.stored
 
 
 @every_friction
-@pytest.mark.parametrize("law", LAWS[:2], ids=["penalty", "smooth"])
+@every_spring
 def test_forces_at_the_end_of_steps_never_give_more_than_was_stored(law, friction) -> None:
     way = walk(11, 6)
     points = touch(dr.Contact(surface("plane"), law, friction), way)
@@ -170,7 +181,7 @@ def test_forces_at_the_end_of_steps_never_give_more_than_was_stored(law, frictio
     for k, (reply, booked) in enumerate(walked(points, way)):
         work = np.einsum("ni,ni->n", reply.force, way.x[k + 1] - way.x[k])
         work += np.einsum("ni,ni->n", reply.moment, way.turn[k])
-        lost = stored - booked.stored - booked.rubbed + booked.pushed - work
+        lost = stored - booked.stored - booked.rubbed - booked.damped + booked.pushed - work
         assert (lost >= -1e-12 * STIFF * RADIUS**2).all()
         stored = booked.stored
 
@@ -193,7 +204,7 @@ def test_forces_turn_with_points_wall_and_sections(
     for (reply, booked), (turned, other) in zip(here, there, strict=True):
         for name in ("force", "moment"):
             np.testing.assert_allclose(getattr(turned, name) @ pose.Q, getattr(reply, name), atol=1e-9 * STIFF * RADIUS)
-        for name in ("stored", "rubbed", "pushed"):
+        for name in ("stored", "rubbed", "pushed", "damped"):
             np.testing.assert_allclose(getattr(other, name), getattr(booked, name), atol=1e-9 * STIFF * RADIUS**2)
 
 
@@ -206,7 +217,7 @@ def test_what_is_remembered_is_all_there_is(law, friction, level: float) -> None
     whole, begun = touch(contact, way, level), touch(contact, way, level)
     expected = walked(whole, way)[3:]
     walked(begun, way, last=3)
-    again = Touch(contact, np.full(N, RADIUS), 1.0, level)
+    again = Touch(contact, np.full(N, RADIUS), MOTION, level)
     again.recall(begun.memory(), float(times(way)[3]))
     for (reply, booked), (other, also) in zip(expected, walked(again, way, 3), strict=True):
         for name in ("gap", "pressure", "traction", "moment", "state"):
@@ -244,7 +255,7 @@ def test_a_step_that_was_tried_in_vain_leaves_no_trace(law, friction, level: flo
 def test_renewals_bring_a_spring_to_the_wall(eps_N: float, stiffer: float, depth: float, tolerance: float) -> None:
     # A spring k that is relaxed so deep in the wall: each renewal leaves the part k/(k + ε) of the penetration, ε = ε_N
     # until a renewal leaves more than a tenth, and ten times as much after each that does.
-    points = Touch(dr.Contact(dr.Plane(), dr.AugmentedLagrangian(eps_N, tolerance)), np.array([RADIUS]), 1.0)
+    points = Touch(dr.Contact(dr.Plane(), dr.AugmentedLagrangian(eps_N, tolerance)), np.array([RADIUS]), dr.Static())
     points.place(np.array([[0, 0, RADIUS + depth]]), 0.0)
     points.begin(1.0)
     k, λ, ε, left = stiffer * eps_N, 0.0, eps_N, depth
@@ -277,7 +288,7 @@ def test_where_rods_are_placed_nothing_has_moved_yet(law, friction) -> None:
 @every_friction
 @every_law
 def test_no_points_are_no_trouble(law, friction) -> None:
-    points = Touch(dr.Contact(surface("core"), law, friction), np.zeros(0), 1.0)
+    points = Touch(dr.Contact(surface("core"), law, friction), np.zeros(0), dr.Static())
     points.place(np.zeros((0, 3)), 0.0)
     points.begin(0.5)
     reply = points.respond(np.zeros((0, 3)), np.zeros((0, 3)))
@@ -334,7 +345,7 @@ def test_a_point_that_leaves_and_comes_back_begins_anew() -> None:
 def pushed_along(way: float) -> Touch:
     """A point on a floor of 1e4 N/m², pressed by 1 N/m, that a step has taken along it, μ = 0.5."""
     contact = dr.Contact(dr.Plane((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)), dr.Penalty(1e4), dr.Coulomb(0.5))
-    points = Touch(contact, np.array([0.01]), 2.0)
+    points = Touch(contact, np.array([0.01]), dr.Static(t_end=2.0))
     points.place(np.array([[0.0, 0.0, 0.0099]]), 0.0)
     points.begin(1.0)
     fresh(points, np.array([[way, 0.0, 0.0099]]), np.zeros((1, 3)))

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dolfinrod.scene import Contact, Coulomb, CreepingCoulomb, Penalty, Plane, Touch
+from dolfinrod.scene import Contact, Coulomb, CreepingCoulomb, Penalty, Plane, Static, Touch
 from verification.contacts import friction, impacts, rolling
 from verification.contacts.bodies import BLOCKS, block, way
 from verification.contacts.runs import DISCRETE, PLANE
@@ -69,7 +69,7 @@ def test_an_impact_that_ends_its_sliding_is_refused():
 
 def one_point(law_friction, x: float) -> Touch:
     """A point pressed 1e-6 m into a plane, its forces at the end of steps."""
-    touch = Touch(Contact(Plane((0, 0, 0), (0, 1, 0)), Penalty(1e6), law_friction), np.array([0.01]), 1.0)
+    touch = Touch(Contact(Plane((0, 0, 0), (0, 1, 0)), Penalty(1e6), law_friction), np.array([0.01]), Static())
     touch.place(np.array([[x, 0.01 - 1e-6, 0.0]]), 0.0)
     return touch
 

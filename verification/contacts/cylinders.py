@@ -19,7 +19,7 @@ from dolfinrod.scene import (
     Section,
     Static,
 )
-from dolfinrod.scene.pressure import NormalLaw
+from dolfinrod.scene.normallaw import NormalLaw
 from verification.contactcase import ContactCase
 from verification.contacts.runs import DISCRETE, PLANE, RADIUS, SPACE, THIN, marks, on_meshes, pressed, stiffer, touch
 from verification.models import Continuum

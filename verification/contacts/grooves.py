@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.scene import AugmentedLagrangian, Contact, Cylinder, Groove, Guide, LineForce, Penalty, Plane, Rod, Scene
-from dolfinrod.scene.pressure import NormalLaw
+from dolfinrod.scene.normallaw import NormalLaw
 from dolfinrod.scene.surfaces import Surface
 from verification.contactcase import ContactCase, ContactRun
 from verification.contacts.runs import DISCRETE, RADIUS, SPACE, THIN, on_meshes, pressed, rod, touch

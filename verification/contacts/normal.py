@@ -20,7 +20,7 @@ from dolfinrod.scene import (
     SmoothPenalty,
     WallMotion,
 )
-from dolfinrod.scene.pressure import NormalLaw
+from dolfinrod.scene.normallaw import NormalLaw
 from dolfinrod.scene.surfaces import Surface
 from verification.contactcase import ContactCase, ContactRun
 from verification.contacts.runs import DISCRETE, PLANE, SPACE, marks, on_meshes, pressed, touch

@@ -19,7 +19,7 @@ from dolfinrod.scene import (
     Scene,
     Static,
 )
-from dolfinrod.scene.pressure import NormalLaw
+from dolfinrod.scene.normallaw import NormalLaw
 from verification.case import SKEW, UPRIGHT, Pose
 from verification.contactcase import ContactCase
 from verification.contacts.runs import DISCRETE, PLANE, RADIUS, SPACE, THIN, angle, marks, on_meshes, pressed, stiffer

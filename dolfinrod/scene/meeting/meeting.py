@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dolfinrod.meetings import Meetings
+from dolfinrod.scene.friction import anchoring
 from dolfinrod.scene.meeting.acting import derivatives, forces
 from dolfinrod.scene.meeting.anchors import Anchors, keys, matched
 from dolfinrod.scene.meeting.coupling import Coupling, Felt, dealt
@@ -73,13 +74,10 @@ class Meeting:
         self.contact, self._level, self._inert, self._density = contact, level, inert, density
         self._spans = spans = Spans(strands)
         touching = np.isin(spans.rod, contact.among(len(strands.radius)))
-        own = np.ones(len(spans.rod), dtype=bool) if mine is None else np.asarray(mine)[spans.cell]
-        self._mine = own & touching
+        self._mine = touching if mine is None else touching & np.asarray(mine)[spans.cell]
         self._near = Neighbours(spans, contact.law.g_0, touching, self._mine)
-        friction = contact.friction
-        self.turns = friction is not None and friction.at == "surface"
-        anchors = None if friction is None else friction.eps_T
-        self._stiffness = contact.law.eps_N if anchors is None else anchors
+        self.turns = contact.friction is not None and contact.friction.at == "surface"
+        self._stiffness = anchoring(contact.friction, contact.law)
         self.changed = self.forced = self.stale = False
         self._marks_0: Array | None = None
         self._stored: float | None = None
@@ -145,9 +143,9 @@ class Meeting:
         self.forced = slip is not None and slip.rubbing.forced
         found = np.stack([self._key, state])
         self.changed, self._state = self.forced or not np.array_equal(found, self._state), found
-        nodes, h = pressed.facing.nodes, pressed.facing.h
-        lever = np.zeros((len(h), 0)) if slip is None or not self.turns else slip.ways.lever
-        return Felt(*dealt(nodes, h, lever, *forces(pressed, slip), self._n))
+        at = pressed.facing
+        lever = np.zeros((len(at.h), 0)) if slip is None or not self.turns else slip.ways.lever
+        return Felt(*dealt(at.nodes, at.h, lever, *forces(pressed, slip), self._n))
 
     def _led(self, x: Array) -> Pressed:
         """Points under load."""
@@ -157,8 +155,11 @@ class Meeting:
         self.stale, self._renewed = self._renewed, False
         self._course = course = self._spans.course(x)
         self._marks = found = marks(course, near, self.contact.law)
-        courses = (course, self._course_0) if mean or self.contact.friction is not None else (course,)
-        return load(near, points(both(found, self._began()) if mean else found), self._law, courses, mean=mean)
+        rate = 1.0 / (self._t - self._t_0) if self._inert and self._t > self._t_0 else 0.0
+        alone = not mean and self.contact.friction is None and self.contact.law.damping == 0.0
+        courses = (course,) if alone else (course, self._course_0)
+        spots = points(both(found, self._began()) if mean else found)
+        return load(near, spots, self._law, courses, mean=mean, rate=rate)
 
     def _slide(self, pressed: Pressed, turn: Array) -> Slip | None:
         """How it slides, if anything rubs; what slid one way in the last answer is kept in mind."""
@@ -182,8 +183,7 @@ class Meeting:
         cells = (cell[-1] + 1) * cell[pressed.a] + cell[pressed.b]
         other = np.diff(cells, prepend=-1) != 0
         first, pair = np.flatnonzero(other), np.cumsum(other) - 1
-        friction = self.contact.friction
-        limits = (0.0, 0.0) if friction is None else (friction.mu, self._ε_T)
+        limits = (0.0, 0.0) if self.contact.friction is None else (self.contact.friction.mu, self._ε_T)
         changes = derivatives(pressed, self._slip, limits, turns=self.turns)
         return Coupling(pressed.facing.nodes[first], pair, self._n, changes, self.turns)
 
@@ -191,8 +191,8 @@ class Meeting:
         """In words, how a rod has gone half-way into another in the step, or through it; empty: none has."""
         if squeezed(self._pressed):
             return SQUEEZED
-        swept = self._near.swept(self._course_0, self._course)
-        return PASSED if passes(self._course_0, self._course, *swept) else ""
+        ways = self._course_0, self._course
+        return PASSED if passes(*ways, *self._near.swept(*ways)) else ""
 
     def won(self) -> Array:
         """What contact has won in a step of backward Euler [J], and how many points leapt, of those looked at here."""
@@ -207,8 +207,8 @@ class Meeting:
             return False
         return bool(won[0] > PART * kinetic(self._course_0, self._course, self._density, self._t - self._t_0))
 
-    def accept(self) -> tuple[float, float]:
-        """The step counts; what is stored at its end, and what friction took in it [J]."""
+    def accept(self) -> tuple[float, float, float]:
+        """The step counts; what is stored at its end, and what friction and damping took in it [J]."""
         rubbed, slip, pressed = self._anchors.energy(self._stiffness), self._slip, self._pressed
         self._x_0, self._course_0, self._marks_0, self._t_0 = self._x, self._course, self._marks, self._t
         # Points of a mean load are others than those of the load itself, with which a memory starts again.
@@ -216,7 +216,8 @@ class Meeting:
         if slip is not None:
             self._anchors = Anchors.left(self._spans, pressed, slip.rubbing.anchored)
             rubbed -= float(pressed.length @ dot(slip.traction, slip.ways.w))
-        return self.stored(), rubbed - self._anchors.energy(self._stiffness)
+        rubbed -= self._anchors.energy(self._stiffness)
+        return self.stored(), rubbed, float(pressed.length @ pressed.damped)
 
     def _in(self, pressed: Pressed) -> float:
         """Energy in penetrations [J]."""

@@ -42,12 +42,14 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
         state: 1 sticking or 2 sliding, shape (n,).
 
     Returns:
-        One row a spot.
+        One row a spot under load: one that damping alone keeps from any is left out.
     """
     a, b, facing = pressed.a, pressed.b, pressed.facing
     _, spot = np.unique(a * len(spans.radius) + spans.rod[b], return_inverse=True)
     n, weight = int(spot.max(initial=-1)) + 1, pressed.length * pressed.p
     load = _sums(spot, weight, n)
+    loaded = load > 0.0
+    load = np.where(loaded, load, 1.0)
 
     def mean(values: Array) -> Array:
         return _sums(spot, weight * values, n) / load
@@ -57,7 +59,7 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
     slides, rods = np.zeros(n, dtype=np.int8), np.zeros((2, n), dtype=np.int64)
     np.maximum.at(slides, spot, state)
     rods[:, spot] = spans.rod[a], spans.rod[b]
-    return Meetings(
+    columns = (
         rods[0],
         mean(spans.along(a, pressed.u)),
         rods[1],
@@ -66,10 +68,11 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
         least(pressed, spot, n),
         _sums(spot, 2.0 * pressed.length, n),
         normal + rubs,
-        normal / np.linalg.norm(normal, axis=1)[:, None],
+        normal / np.where(loaded, np.linalg.norm(normal, axis=1), 1.0)[:, None],
         rubs,
         slides,
     )
+    return Meetings(*(column[loaded] for column in columns))
 
 
 def _between(pressed: Pressed, x: Array) -> Array:

@@ -11,7 +11,8 @@ from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.curves import Course
 from dolfinrod.scene.meeting.intervals import MOST, intervals
 from dolfinrod.scene.meeting.neighbours import Neighbours
-from dolfinrod.scene.pressure import NormalLaw, SmoothPenalty
+from dolfinrod.scene.normallaw import NormalLaw
+from dolfinrod.scene.pressure import SmoothPenalty
 
 __all__ = ["GAUSS", "MOST_POINTS", "Points", "both", "marks", "points"]
 
