@@ -37,6 +37,7 @@ class GrooveSteps:
         nudged: Of the bundle from the raised one, less the way by which it was raised, in whole steps [m].
         noise: That tells one bundle from the next [m].
         rebound: Speed with which a fibre leaves a wall over that with which it came, in each length of step.
+        damping: Of contact, over the critical one of a fibre.
     """
 
     title: str
@@ -48,6 +49,7 @@ class GrooveSteps:
     nudged: tuple[float, ...]
     noise: float
     rebound: tuple[float, ...]
+    damping: float = 0.0
 
     @property
     def trusted(self) -> int:
@@ -93,8 +95,9 @@ def in_shorter_steps(scenario: Scenario, model: str) -> GrooveSteps:
         tuple(float(d) for d in np.linalg.norm(paths[a] - paths[b], axis=-1).max(axis=(0, 2))[1:])
         for a, b in ((0, 1), (1, 2), (0, 3))
     )
+    ratio = _damping(scenario)
     return GrooveSteps(
-        title=f"{scenario.fibres} fibres, {scenario.kind}",
+        title=f"{scenario.fibres} fibres, {scenario.kind}" + (f", contact damped by {ratio:.2g}" if ratio else ""),
         model=model,
         steps=tuple(each.dt for each in posed),
         t=tuple(float(at) for at in found[0].t[1:]),
@@ -103,7 +106,15 @@ def in_shorter_steps(scenario: Scenario, model: str) -> GrooveSteps:
         nudged=nudged,
         noise=scenario.bundle.noise,
         rebound=tuple(rebound(each, model) for each in posed),
+        damping=ratio,
     )
+
+
+def _damping(scenario: Scenario) -> float:
+    """½ τ √(ε_N/ρA)."""
+    law, ρA = scenario.law, scenario.bundle.section.rhoA
+    assert ρA is not None
+    return 0.5 * law.damping * sqrt(law.eps_N / ρA)
 
 
 def rebound(scenario: Scenario, model: str) -> float:

@@ -10,7 +10,7 @@ from dolfinrod.groove import Scenario
 from dolfinrod.groove.paper import MESHES, READINGS
 from dolfinrod.groove.scenario import MODELS
 from verification.groovepaper import as_printed
-from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, gathered, small
+from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, damped, gathered, small
 from verification.groovescenariobeside import brief, by_both, with_image
 from verification.groovescenariosteps import in_shorter_steps
 from verification.ledger import Unit
@@ -105,9 +105,11 @@ def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:
             "groove scenario", words, ("image", model, posed.fibres, posed.t_end), partial(with_image, posed, model)
         )
     if {SCENARIOS, STEPPED} & asked and not quick:
-        posed, model = replace(small(LATERAL), t_end=STRUCK, output=LOOKED), "discrete"
-        words, key = f"A bundle in ever shorter steps: {model}", ("steps", model, posed.fibres, posed.t_end)
-        yield Unit("groove scenario", words, key, partial(in_shorter_steps, posed, model))
+        elastic, model = replace(small(LATERAL), t_end=STRUCK, output=LOOKED), "discrete"
+        for law, posed in (("a penalty", elastic), ("a damped penalty", damped(elastic))):
+            words = f"A bundle in ever shorter steps, {law}: {model}"
+            key = ("steps", law, model, posed.fibres, posed.t_end)
+            yield Unit("groove scenario", words, key, partial(in_shorter_steps, posed, model))
 
 
 def _by_both(posed: Scenario) -> Unit:

@@ -10,6 +10,7 @@ import pytest
 import dolfinrod as dr
 from dolfinrod.continuum.pressed import DIRECT
 from tests.scenes import FLAT, SKEW, Pose, both_kinematics, differences
+from verification.references.friction import restitution
 
 RADIUS = 0.01
 SECTION = dr.Section(EA=4e3, GA=1.5e3, GJ=0.8, EI=1.0, rhoA=1.0, rhoI=(5e-5, 2.5e-5, 2.5e-5), radius=RADIUS)
@@ -20,19 +21,21 @@ both_schemes = pytest.mark.parametrize("scheme", [dr.ImplicitEuler(), dr.Midpoin
 MESH = {"elements": 2, "degree": 3}
 
 
-def floor(pose: Pose, friction: object = None, motion: dr.WallMotion | None = None) -> dr.Contact:
+def floor(
+    pose: Pose, friction: object = None, motion: dr.WallMotion | None = None, law: object = dr.Penalty(EPS)
+) -> dr.Contact:
     """The half space y < 0 of a pose."""
     plane = dr.Plane(pose.placed((0.0, 0.0, 0.0)), pose.turned((0.0, 1.0, 0.0)), motion)
-    return dr.Contact(plane, dr.Penalty(EPS), friction)
+    return dr.Contact(plane, law, friction)
 
 
 def thrown(
-    motion: dr.Dynamic, v: tuple[float, float, float], *, pose: Pose = FLAT, friction: object = None
+    motion: dr.Dynamic, v: tuple[float, float, float], *, pose: Pose = FLAT, friction: object = None, **more: object
 ) -> dr.Scene:
     """A rod that flies at the floor, which it is about to touch."""
     rod = pose.straight(SECTION, start=(0.0, RADIUS + 1e-6, 0.0))
     start = dr.Velocity(v=pose.turned(v))
-    return dr.Scene([rod], contacts=[floor(pose, friction)], motion=motion, velocities=[start])
+    return dr.Scene([rod], contacts=[floor(pose, friction, **more)], motion=motion, velocities=[start])
 
 
 def lying(
@@ -75,6 +78,43 @@ def test_an_impact_gains_no_energy(kinematics, scheme):
     else:
         assert back[0] / back[1] == pytest.approx(2.0, rel=0.15)
         assert depth[0] / depth[1] == pytest.approx(2.0, rel=0.15)
+
+
+@both_schemes
+@both_kinematics
+@pytest.mark.parametrize("ratio", [0.1, 1.5], ids=["swings", "creeps"])
+def test_a_wall_with_damping_returns_what_its_ratio_says(kinematics, scheme, ratio):
+    """Its coefficient of restitution; what is lost is damping's, but for what implicit Euler takes itself."""
+    law, off = dr.Penalty(EPS, damping=2.0 * ratio / np.sqrt(EPS)), []
+    for n in (50, 100):
+        motion = dr.Dynamic(2.0 * BOUNCE, BOUNCE / n, scheme)
+        result = dr.solve(thrown(motion, (0.0, -1.0, 0.0), pose=SKEW, law=law), kinematics=kinematics, **MESH)
+        e, v = result.energy, result.rods[0].v[-1] @ SKEW.turned((0.0, 1.0, 0.0))
+        assert v == pytest.approx(v[0], rel=1e-6)
+        assert unclosed(result) <= 1e-8
+        assert np.diff(e["damping"]).max() <= 1e-12
+        assert (result.contacts[0].rods[0].pressure >= 0.0).all()
+        off.append(restitution(ratio) - float(v[0]))
+        if isinstance(scheme, dr.Midpoint):
+            assert e["kinetic"][0] - e["kinetic"][-1] + e["damping"][-1] == pytest.approx(0.0, abs=1e-8)
+    if isinstance(scheme, dr.Midpoint):
+        assert np.abs(off).max() <= 2e-4
+    else:
+        assert off[0] / off[1] == pytest.approx(2.0, rel=0.1)
+
+
+def test_at_rest_there_is_no_damping():
+    """A rod pressed on a wall, step by step of a pseudo-time: the same to the last digit."""
+    rod = FLAT.straight(SECTION, start=(0.0, RADIUS, 0.0))
+    found = []
+    for damping in (0.0, 0.3):
+        held = [dr.Clamp(at="start")]
+        wall = floor(FLAT, law=dr.Penalty(EPS, damping=damping))
+        scene = dr.Scene([rod], held, [dr.LineForce((0.0, -50.0, 0.0))], contacts=[wall])
+        found.append(dr.solve(scene, **MESH))
+    one, other = (result.contacts[0].rods[0].pressure for result in found)
+    np.testing.assert_array_equal(one, other)
+    assert one[-1].max() > 10.0
 
 
 @both_schemes

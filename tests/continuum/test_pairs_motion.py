@@ -13,10 +13,13 @@ import dolfinrod as dr
 from dolfinrod.checkpoint import checkpoint as clock
 from dolfinrod.continuum.pace import Pace
 from tests.scenes import interpolated, largest
+from verification.references.friction import restitution
 
 RADIUS = 0.01
 SECTION = dr.Section(EA=4e3, GA=1.5e3, GJ=0.8, EI=1.0, radius=RADIUS, rhoA=1.0, rhoI=(5e-5, 2.5e-5, 2.5e-5))
 LAW = dr.Penalty(1e4, 1e-4)
+# Half of the critical damping of two rods.
+DAMPED = dr.Penalty(1e4, 1e-4, damping=1.0 / np.sqrt(2e4))
 ELEMENTS, STEP = 3, 2e-3
 MESH = {"elements": ELEMENTS, "degree": 3}
 SCHEMES = pytest.mark.parametrize("scheme", [dr.ImplicitEuler(), dr.Midpoint()], ids=["Euler", "midpoint"])
@@ -27,7 +30,12 @@ ROUGH = dr.Coulomb(0.4)
 
 
 def bundle(
-    scheme: dr.ImplicitEuler | dr.Midpoint, friction: dr.Coulomb | None = None, *, n: int = 3, steps: int = 12
+    scheme: dr.ImplicitEuler | dr.Midpoint,
+    friction: dr.Coulomb | None = None,
+    *,
+    n: int = 3,
+    steps: int = 12,
+    law: dr.Penalty = LAW,
 ) -> dr.Scene:
     """n free rods one above the other, each askew of the next, thrown at each other."""
     rods, velocities = [], []
@@ -38,7 +46,7 @@ def bundle(
         rods.append(dr.Rod.straight(1.0, SECTION, start=tuple(middle - 0.5 * along), direction=tuple(along)))
         velocities.append(dr.Velocity((0.1 * k, 0.0, 0.2 - 0.4 * k / (n - 1)), rod=k))
     motion = dr.Dynamic(STEP * steps, dt=STEP, scheme=scheme)
-    return dr.Scene(rods, contacts=[dr.RodContact(LAW, friction)], motion=motion, velocities=velocities)
+    return dr.Scene(rods, contacts=[dr.RodContact(law, friction)], motion=motion, velocities=velocities)
 
 
 def momenta(result: dr.Result) -> tuple[np.ndarray, np.ndarray]:
@@ -67,18 +75,20 @@ def assert_same(one: dr.Result, other: dr.Result, off: float) -> None:
 
 
 @pytest.mark.parametrize("friction", [None, ROUGH], ids=["smooth", "rough"])
-def test_a_free_bundle_keeps_its_momenta(friction):
+@pytest.mark.parametrize("law", [LAW, DAMPED], ids=["elastic", "damped"])
+def test_a_free_bundle_keeps_its_momenta(law, friction):
     """The midpoint rule keeps both to round-off, friction and its couples included; and the ledger closes."""
-    result = dr.solve(bundle(dr.Midpoint(), friction), **MESH)
+    result = dr.solve(bundle(dr.Midpoint(), friction, law=law), **MESH)
     assert max(result.meetings[0].total(i) for i in range(len(result.t))) > 1.0
     for momentum in momenta(result):
         assert largest(momentum - momentum[0]) <= 1e-9 * largest(momentum[0])
 
 
 @SCHEMES
-def test_the_ledger_closes(scheme):
-    """What is stored changes by the works; friction takes, and backward Euler does, too."""
-    result = dr.solve(bundle(scheme, ROUGH), **MESH)
+@pytest.mark.parametrize("law", [LAW, DAMPED], ids=["elastic", "damped"])
+def test_the_ledger_closes(law, scheme):
+    """What is stored changes by the works; friction takes, damping does, and so does backward Euler."""
+    result = dr.solve(bundle(scheme, ROUGH, law=law), **MESH)
     E = result.energy
     stored = sum(E[name] for name in ("kinetic", "strain", "potential", "contact"))
     works = sum(values for name, values in E.items() if name not in ("kinetic", "strain", "potential", "contact"))
@@ -86,8 +96,29 @@ def test_the_ledger_closes(scheme):
     assert E["contact"].max() > 1e-3
     assert (np.diff(E["friction"]) <= 1e-15).all()
     assert E["friction"][-1] < 0.0
+    assert (np.diff(E["damping"]) <= 1e-15).all()
+    assert (E["damping"][-1] < 0.0) == (law is DAMPED)
     assert (E["wall work"] == 0.0).all()
     assert {"Rod contact", "Friction", "Inertia"} <= set(result.formulation.terms)
+
+
+@SCHEMES
+def test_rods_with_damping_part_as_their_restitution_says(scheme):
+    """Two alike side by side: a spring between two masses, of half of one of them."""
+    ratio, time, off = 0.5, np.pi / np.sqrt(2.0 * LAW.eps_N), []
+    law = dr.Penalty(LAW.eps_N, 0.0, 2.0 * ratio * time / np.pi)
+    rods = [dr.Rod.straight(1.0, SECTION, start=(0.0, 0.0, z)) for z in (0.0, 2.0 * RADIUS + 1e-6)]
+    flights = [dr.Velocity((0.0, 0.0, v), rod=k) for k, v in enumerate((0.5, -0.5))]
+    for n in (50, 100):
+        motion = dr.Dynamic(2.0 * time, dt=time / n, scheme=scheme)
+        scene = dr.Scene(rods, contacts=[dr.RodContact(law)], motion=motion, velocities=flights)
+        v = [h.v[-1, :, 2].mean() for h in dr.solve(scene, **MESH).rods]
+        assert v[0] == pytest.approx(-v[1], rel=1e-6)
+        off.append(restitution(ratio) - 2.0 * v[1])
+    if isinstance(scheme, dr.Midpoint):
+        assert np.abs(off).max() <= 1e-3
+    else:
+        assert off[0] / off[1] == pytest.approx(2.0, rel=0.15)
 
 
 def test_forces_do_not_depend_on_the_order_of_rods():
@@ -100,8 +131,9 @@ def test_forces_do_not_depend_on_the_order_of_rods():
 
 
 @EULER_SLOWLY
-def test_ranks_do_not_matter(scheme):
-    scene = bundle(scheme, ROUGH, steps=6)
+@pytest.mark.parametrize("law", [LAW, DAMPED], ids=["elastic", "damped"])
+def test_ranks_do_not_matter(law, scheme):
+    scene = bundle(scheme, ROUGH, steps=6, law=law)
     assert_same(*(dr.solve(scene, comm=comm, **MESH) for comm in (MPI.COMM_WORLD, MPI.COMM_SELF)), 1e-9)
 
 

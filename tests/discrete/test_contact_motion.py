@@ -29,6 +29,7 @@ from dolfinrod.scene import (
     WallMotion,
 )
 from tests.scenes import FLAT, SKEW, Pose, largest
+from verification.references.friction import restitution
 
 FIBRE = Section.ramie()
 LENGTH = 0.04
@@ -49,10 +50,10 @@ def unaccounted(result: Result) -> float:
     return largest(stored - sum(e[name] for name in WORKS)) / max(largest(values) for values in e.values())
 
 
-def thrown(law: object, steps: int, pose: Pose = FLAT) -> Scene:
+def thrown(law: object, steps: int, pose: Pose = FLAT, times: float = 1.2) -> Scene:
     """C2: a fibre parallel to a plane that flies against it at 1 m/s, in so many steps of the time it is to touch."""
     rod = pose.straight(FIBRE, length=LENGTH, start=(0, 0, FIBRE.radius + 2e-6))
-    motion = Dynamic(2e-6 + 1.2 * HALF, HALF / steps)
+    motion = Dynamic(2e-6 + times * HALF, HALF / steps)
     plane = Plane(pose.placed((0, 0, 0)), pose.turned((0, 0, 1)))
     flight = Velocity(v=pose.turned((0, 0, -1.0)))
     return Scene([rod], contacts=[Contact(plane, law)], motion=motion, velocities=[flight])
@@ -75,6 +76,22 @@ def test_a_fibre_springs_back_from_a_wall():
     assert 0.0 < lost[1][0] < lost[0][0] < 0.06
     assert 0.0 < lost[1][1] < lost[0][1] < 0.12
     assert lost[0][1] / lost[1][1] == pytest.approx(2.0, abs=0.2)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 1.5], ids=["swings", "creeps"])
+def test_a_wall_with_damping_returns_what_its_ratio_says(ratio):
+    """Its coefficient of restitution; none of what is lost is more than damping's and the scheme's."""
+    off = []
+    for steps in (50, 100):
+        result = discrete.solve(thrown(Penalty(C, damping=2.0 * ratio * HALF / np.pi), steps, SKEW, 2.0), elements=3)
+        back = SKEW.back(result.rods[0].v[-1] + SKEW.origin)
+        assert back == pytest.approx(np.tile(back[0], (4, 1)), abs=1e-6)
+        assert unaccounted(result) < 1e-9
+        assert (np.diff(result.energy["damping"]) <= 1e-12 * result.energy["kinetic"][0]).all()
+        assert (np.diff(result.energy["numerical"]) <= 1e-12 * result.energy["kinetic"][0]).all()
+        assert (result.contacts[0].rods[0].pressure >= 0.0).all()
+        off.append(restitution(ratio) - back[0, 2])
+    assert off[0] / off[1] == pytest.approx(2.0, rel=0.1)
 
 
 @pytest.mark.parametrize("law", [SmoothPenalty(C, 1e-6), Penalty(1e8), AugmentedLagrangian(1e6, 1e-8)], ids=repr)

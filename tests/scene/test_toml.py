@@ -165,8 +165,8 @@ surfaces = st.one_of(
     ),
 )
 laws = st.one_of(
-    st.builds(dr.Penalty, positive, numbers),
-    st.builds(dr.SmoothPenalty, positive, positive, numbers),
+    st.builds(dr.Penalty, positive, numbers, st.just(0.0) | positive),
+    st.builds(dr.SmoothPenalty, positive, positive, numbers, st.just(0.0) | positive),
     st.builds(dr.AugmentedLagrangian, positive, positive),
 )
 frictions = st.one_of(

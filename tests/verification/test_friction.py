@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 from dolfinrod.scene import Contact, Coulomb, CreepingCoulomb, Penalty, Plane, Static, Touch
 from verification.contacts import friction, impacts, rolling
@@ -21,6 +22,7 @@ from verification.references.friction import (
     creep,
     friction_angle,
     moved_wall,
+    restitution,
     swing_time,
     wedge,
 )
@@ -60,6 +62,27 @@ def test_rollers_slip_where_friction_is_too_weak(mu):
     below, above = Incline(edge * (1 - 1e-9), mu), Incline(min(edge * (1 + 1e-9), pi / 2), mu)
     assert below.cylinder == pytest.approx(above.cylinder, rel=1e-6)
     assert below.spin == pytest.approx(above.spin, rel=1e-6)
+
+
+@settings(max_examples=20)
+@given(ratio=st.floats(0.01, 5.0) | st.just(1.0))
+def test_restitution_is_that_of_a_spring_and_a_dashpot_that_never_pull(ratio):
+    """Integrated until their force 2 ζ ẋ + x is zero again."""
+
+    def force(_t: float, y: np.ndarray) -> float:
+        return float(2.0 * ratio * y[1] + y[0])
+
+    force.terminal, force.direction = True, -1.0
+    path = solve_ivp(
+        lambda t, y: (y[1], -force(t, y)),
+        (0.0, 100.0),
+        (0.0, 1.0),
+        events=force,
+        method="DOP853",
+        rtol=1e-11,
+        atol=1e-13,
+    )
+    assert -path.y_events[0][0, 1] == pytest.approx(restitution(ratio), rel=1e-8)
 
 
 def test_an_impact_that_ends_its_sliding_is_refused():

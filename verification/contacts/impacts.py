@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
+from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +13,7 @@ from dolfinrod.scene import Contact, Coulomb, Cylinder, Penalty, Planar, Plane, 
 from verification.contactcase import ContactCase
 from verification.contacts.bodies import BLOCKS, MASS, RADIUS, ROLLERS, STIFF, spun
 from verification.contacts.timed import in_time
-from verification.references.friction import Bounce
+from verification.references.friction import Bounce, restitution
 from verification.references.moving import exact
 from verification.stepper import DiscreteStepper, both_schemes
 
@@ -28,6 +31,8 @@ FIBRE_LENGTH, FIBRE_RADIUS = 1e-3, 1e-5
 HIT = Bounce(1.0, FIBRE.rhoA or 0.0, 2e4)
 # How long it is looked at, in contact times.
 LOOKED = 1.5
+# Damping of a wall over the critical one: it takes half of the energy, or nearly all.
+LIGHT, CRITICAL = 0.1, 1.0
 # A roller thrown at a wall at an angle, so fast along it that it slides until it leaves.
 ALONG, AGAINST, FRICTION = 3.0, 1.0, 0.3
 THROWN = Bounce(AGAINST, MASS, 1e4)
@@ -38,6 +43,18 @@ def dropped(motion: Dynamic) -> Scene:
     rod = Rod.straight(FIBRE_LENGTH, FIBRE, start=(0.0, FIBRE_RADIUS, 0.0))
     contact = Contact(Plane((0.0, 0.0, 0.0), (0.0, 1.0, 0.0)), Penalty(HIT.eps_N))
     return Scene(rods=[rod], contacts=[contact], velocities=[Velocity((0.0, -HIT.v, 0.0))], motion=motion)
+
+
+def damped(motion: Dynamic, ratio: float) -> Scene:
+    """The same fibre and a wall with damping."""
+    scene = dropped(motion)
+    law = Penalty(HIT.eps_N, damping=2.0 * ratio * HIT.time / pi)
+    return replace(scene, contacts=[replace(scene.walls[0], law=law)])
+
+
+def back(result: Result) -> Array:
+    """Speed after the impact over that before."""
+    return np.asarray(result.rods[0].v)[-1, :1, 1] / HIT.v
 
 
 def left(result: Result) -> Array:
@@ -105,6 +122,24 @@ def drop_case() -> ContactCase:
     )
 
 
+def damp_case(ratio: float) -> ContactCase:
+    """C2 with damping."""
+    return ContactCase(
+        name=f"impact-damped-{ratio:g}",
+        title=f"C2, fibre that hits a wall with damping, {ratio:g} of the critical one",
+        family="impact",
+        reference=exact("coefficient of restitution", "Schwager & Pöschel 2007", restitution(ratio)),
+        scale=1.0,
+        quantity="speed after over that before",
+        read=back,
+        runs=tuple(
+            in_time(stepper, partial(damped, ratio=ratio), 2.0 * HIT.time, (80, 160, 320), limit=limit, order=order)
+            # When in a step it strikes decides more of the second order's error than the step's length.
+            for stepper, (limit, order) in zip(BLOCKS, ((0.05, 0.9), (1e-4, None), (0.05, 0.9)), strict=True)
+        ),
+    )
+
+
 def throw_case() -> ContactCase:
     """An oblique impact with friction."""
     along, spin = THROWN.slides(FRICTION, ALONG)
@@ -147,4 +182,4 @@ def fall_case() -> ContactCase:
     )
 
 
-CASES = (drop_case(), throw_case(), fall_case())
+CASES = (drop_case(), damp_case(LIGHT), damp_case(CRITICAL), throw_case(), fall_case())

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan, cos, pi, sin, sqrt, tan
+from math import atan, atan2, cos, exp, log, pi, sin, sqrt, tan
 
 from scipy.special import ellipk
 
-__all__ = ["Bounce", "Incline", "Slide", "creep", "friction_angle", "moved_wall", "swing_time", "wedge"]
+__all__ = ["Bounce", "Incline", "Slide", "creep", "friction_angle", "moved_wall", "restitution", "swing_time", "wedge"]
 
 
 @dataclass(frozen=True)
@@ -77,6 +77,25 @@ class Slide:
         """Way of the cylinder at a time after it has begun to roll [m]."""
         begun, way, speed = self.rolls
         return way + speed * (t - begun)
+
+
+def restitution(ratio: float) -> float:
+    """Speed after an impact on a spring and a dashpot beside it over that before, where they never pull.
+
+    What strikes them leaves when their force is zero, before the spring has its length again.
+
+    Args:
+        ratio: Of the damping to the critical one, ½ τ √(ε/ρA) [above 0].
+
+    Source: Schwager & Pöschel, Granular Matter 9, 2007, DOI 10.1007/s10035-007-0065-z.
+    """
+    if ratio == 1.0:
+        return exp(-2.0)
+    if ratio < 1.0:
+        ω = sqrt(1.0 - ratio**2)
+        return exp(-ratio / ω * (pi - atan2(2.0 * ratio * ω, ω**2 - ratio**2)))
+    Ω = sqrt(ratio**2 - 1.0)
+    return exp(-ratio / Ω * log((ratio + Ω) / (ratio - Ω)))
 
 
 @dataclass(frozen=True)

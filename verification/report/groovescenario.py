@@ -57,7 +57,8 @@ def scenarios(found: Sequence[Gathered]) -> str:
         parts += ["<h3>Ensembles</h3>", _ensembles(ensembles)]
     if images := [row for row in found if isinstance(row, GrooveImage)]:
         parts += ["<h3>Mirror images, built and solved</h3>", _images(images)]
-    parts += [f"<h3>In ever shorter steps</h3>{stepped(row)}" for row in found if isinstance(row, GrooveSteps)]
+    stepping = [row for row in found if isinstance(row, GrooveSteps)]
+    parts += [f"<h3>In ever shorter steps: {escape(row.title)}</h3>{stepped(row)}" for row in stepping]
     models = [row for row in found if isinstance(row, GrooveModels)]
     parts += [f"<h3>{escape(row.title)}: both models</h3>{_models(row)}" for row in models]
     return "\n".join(parts)

@@ -6,6 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from verification.groovescenariosteps import NUDGE
+from verification.references.friction import restitution
 from verification.report.canvas import Curve, log_log
 from verification.report.groove import figure
 
@@ -52,8 +53,20 @@ def said(row: GrooveSteps) -> str:
         f"nearer than the noise of {1e6 * row.noise:g} µm that tells one bundle from the next, and near one another "
         f"with order {row.order:.2f}. At {1e3 * row.t[-1]:.2f} ms they are {1e6 * row.quartered[-1]:.2g} µm apart, and "
         f"what raised all fibres by {1e9 * NUDGE:g} nm has moved a node by {grown:.0f} times as much. Chance is not "
-        f"all of it: a fibre that strikes a wall leaves with this part of its speed: {back}. A penalty gives all of it "
-        "back, implicit Euler takes some of it, and the paper says nothing of how much walls and fibres should take: "
-        "so the step decides how hard fibres rebound, and what depends on that settles in shorter steps only where "
-        "fibres rebound as if nothing were lost."
+        f"all of it: a fibre that strikes a wall leaves with this part of its speed: {back}. {_takes(row)}"
+    )
+
+
+def _takes(row: GrooveSteps) -> str:
+    """What of its speed a fibre should lose, and what it does."""
+    if row.damping > 0.0:
+        left = restitution(row.damping)
+        return (
+            f"Here contact takes what is not given back: the law by itself would leave {left:.2f} (Schwager & Pöschel "
+            "2007), whatever the step, and the rest is what implicit Euler takes."
+        )
+    return (
+        "A penalty gives all of it back, implicit Euler takes some of it, and the paper says nothing of how much walls "
+        "and fibres should take: so the step decides how hard fibres rebound, and what depends on that settles in "
+        "shorter steps only where fibres rebound as if nothing were lost."
     )

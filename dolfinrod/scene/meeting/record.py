@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -59,7 +61,7 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
     slides, rods = np.zeros(n, dtype=np.int8), np.zeros((2, n), dtype=np.int64)
     np.maximum.at(slides, spot, state)
     rods[:, spot] = spans.rod[a], spans.rod[b]
-    columns = (
+    met = Meetings(
         rods[0],
         mean(spans.along(a, pressed.u)),
         rods[1],
@@ -72,7 +74,7 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
         rubs,
         slides,
     )
-    return Meetings(*(column[loaded] for column in columns))
+    return Meetings(**{column.name: getattr(met, column.name)[loaded] for column in fields(met)})
 
 
 def _between(pressed: Pressed, x: Array) -> Array:
