@@ -38,7 +38,7 @@ def test_the_record_sums_up_each_contact(tmp_path):
     result = lain()
     result.write(tmp_path)
     floor, wall = json.loads((tmp_path / "result.json").read_text(encoding="utf-8"))["contacts"]
-    assert (floor["surface"], floor["law"]) == ("Plane", "Penalty(eps_N=1000000.0, g_0=5e-05)")
+    assert (floor["surface"], floor["law"]) == ("Plane", "Penalty(eps_N=1000000.0, g_0=5e-05, damping=0.0)")
     assert (floor["friction"], wall["friction"]) == ("Coulomb(mu=0.3, eps_T=None, at='surface')", None)
     for told, contact in ((floor, result.contacts[0]), (wall, result.contacts[1])):
         np.testing.assert_array_equal(told["length"], contact.length)

@@ -79,7 +79,7 @@ def test_the_record_sums_up_each_contact_among_rods(tmp_path):
     record = json.loads((tmp_path / "result.json").read_text(encoding="utf-8"))
     both, alone = record["meetings"]
     assert (both["law"], both["friction"], both["rods"]) == (
-        "Penalty(eps_N=1000000.0, g_0=5e-05)",
+        "Penalty(eps_N=1000000.0, g_0=5e-05, damping=0.0)",
         "Coulomb(mu=0.3, eps_T=None, at='surface')",
         None,
     )

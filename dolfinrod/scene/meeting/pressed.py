@@ -87,25 +87,34 @@ def load(
     end, spans, run, u = courses[0], courses[0].spans, points.run, points.u
     a, first, last = near.on[run], near.first[run], near.last[run]
     seen = look(end, a, u, first, last)
-    radius_a, radius_b, none = spans.radius[a], spans.radius[first], np.zeros(len(a))
-    touching = radius_a + radius_b
-    gap = gap_0 = seen.distance - touching
+    radius_a, radius_b = spans.radius[a], spans.radius[first]
+    gap = gap_0 = seen.distance - (radius_a + radius_b)
     if len(courses) > 1:
-        gap_0 = look(courses[1], a, u, first, last).distance - touching
-    acts = in_step(law, gap_0, rate)
-    p, slope = acts.mean(gap_0, gap, none) if mean else acts.pressure(gap, none)
-    spring = elastic(acts, gap_0, gap, p, mean=mean)
+        gap_0 = look(courses[1], a, u, first, last).distance - (radius_a + radius_b)
+    p, slope, damped, touching = _loads(gap_0, gap, law, rate, mean=mean)
     # Closest points beyond a run are those of another, or of the rod itself.
-    some = (np.maximum(p, spring) > 0.0) & (first <= seen.b) & (seen.b <= last)
+    some = touching & (first <= seen.b) & (seen.b <= last)
     on = slice(None) if some.all() else np.flatnonzero(some)
     a, u, seen = a[on], u[on], seen.only(on)
-    level, facing = 1.0, face(end, a, u, seen)
-    acting = facing
-    if mean:
-        level = 0.5
-        middle = between(courses[1], end, level)
-        acting = face(middle, a, u, Opposite(*opposite(middle.curves, a, u, seen.b, seen.v)))
+    facing = face(end, a, u, seen)
+    acting, level = (_half_way(courses[1], end, a, u, seen), 0.5) if mean else (facing, 1.0)
     length = 0.5 * points.weight[on] * spans.length[a]
     radii, gaps = (radius_a[on], radius_b[on]), (gap_0[on], gap[on])
-    loads = p[on], slope[on], ((p - spring) * (gap_0 - gap))[on]
+    loads = p[on], slope[on], damped[on]
     return Pressed(a, u, seen.b, seen.v, points.index[on], length, *radii, *gaps, *loads, acting, facing, level)
+
+
+def _half_way(start: Course, end: Course, a: Integers, u: Array, seen: Opposite) -> Facing:
+    """Where mean loads act on points that face others at the end of a step."""
+    middle = between(start, end, 0.5)
+    return face(middle, a, u, Opposite(*opposite(middle.curves, a, u, seen.b, seen.v)))
+
+
+def _loads(
+    gap_0: Array, gap: Array, law: NormalLaw, rate: float, *, mean: bool
+) -> tuple[Array, Array, Array, NDArray[np.bool_]]:
+    """Line loads of a step from gaps to others, their slopes, work of damping, and what of it touches."""
+    acts, none = in_step(law, gap_0, rate), np.zeros_like(gap)
+    p, slope = acts.mean(gap_0, gap, none) if mean else acts.pressure(gap, none)
+    spring = elastic(acts, gap_0, gap, p, mean=mean)
+    return p, slope, (p - spring) * (gap_0 - gap), np.maximum(p, spring) > 0.0

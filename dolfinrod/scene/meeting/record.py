@@ -47,34 +47,36 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
         One row a spot under load: one that damping alone keeps from any is left out.
     """
     a, b, facing = pressed.a, pressed.b, pressed.facing
-    _, spot = np.unique(a * len(spans.radius) + spans.rod[b], return_inverse=True)
+    _, first, spot = np.unique(a * len(spans.radius) + spans.rod[b], return_index=True, return_inverse=True)
     n, weight = int(spot.max(initial=-1)) + 1, pressed.length * pressed.p
     load = _sums(spot, weight, n)
-    loaded = load > 0.0
-    load = np.where(loaded, load, 1.0)
+    share = np.divide(weight, load[spot], out=np.zeros_like(weight), where=load[spot] > 0.0)
 
     def mean(values: Array) -> Array:
-        return _sums(spot, weight * values, n) / load
+        return _sums(spot, share * values, n)
 
     normal = _gather(spot, weight[:, None] * facing.normal, n)
     rubs = _gather(spot, pressed.length[:, None] * traction, n)
-    slides, rods = np.zeros(n, dtype=np.int8), np.zeros((2, n), dtype=np.int64)
+    slides = np.zeros(n, dtype=np.int8)
     np.maximum.at(slides, spot, state)
-    rods[:, spot] = spans.rod[a], spans.rod[b]
     met = Meetings(
-        rods[0],
+        spans.rod[a[first]],
         mean(spans.along(a, pressed.u)),
-        rods[1],
+        spans.rod[b[first]],
         mean(spans.along(b, pressed.v)),
-        _gather(spot, weight[:, None] * _between(pressed, x), n) / load[:, None],
+        _gather(spot, share[:, None] * _between(pressed, x), n),
         least(pressed, spot, n),
         _sums(spot, 2.0 * pressed.length, n),
         normal + rubs,
-        normal / np.where(loaded, np.linalg.norm(normal, axis=1), 1.0)[:, None],
+        normal / np.where(load > 0.0, np.linalg.norm(normal, axis=1), 1.0)[:, None],
         rubs,
         slides,
     )
-    return Meetings(**{column.name: getattr(met, column.name)[loaded] for column in fields(met)})
+    return met if (load > 0.0).all() else _only(met, load > 0.0)
+
+
+def _only(met: Meetings, spots: NDArray[np.bool_]) -> Meetings:
+    return Meetings(**{column.name: getattr(met, column.name)[spots] for column in fields(met)})
 
 
 def _between(pressed: Pressed, x: Array) -> Array:
