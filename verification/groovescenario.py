@@ -85,6 +85,12 @@ SETTINGS = (
     Setting("twice-penalty", "lateral, penalty twice as large", replace(LATERAL, law=TWICE), tells=False),
     Setting("damped", "lateral, contact damped critically", damped(LATERAL), tells=False),
     Setting("damped-intermediate", "intermediate, contact damped critically", damped(INTERMEDIATE), tells=False),
+    Setting(
+        "damped-half-steps",
+        "lateral, contact damped critically, steps half as long",
+        damped(replace(LATERAL, dt=0.5 * LATERAL.dt)),
+        tells=False,
+    ),
 )
 
 

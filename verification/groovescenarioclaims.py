@@ -17,7 +17,12 @@ __all__ = ["Gathered", "GrooveClaim", "judged", "with_claims"]
 # Of a bundle's width, by which one that nothing drives may swing [1]. And of the winding of fibres held at both ends,
 # whole turns but for the piece at B by which one ends before the other: less than this is nearest to none [turns].
 KEPT, HELD = 1e-3, 0.25
-REFINED = ("half-elements", "half-steps", "twice-penalty")
+REFINED = (
+    ("lateral", "half-elements"),
+    ("lateral", "half-steps"),
+    ("lateral", "twice-penalty"),
+    ("damped", "damped-half-steps"),
+)
 
 
 @dataclass(frozen=True)
@@ -64,9 +69,10 @@ def judged(found: Sequence[GrooveEnsemble]) -> tuple[GrooveClaim, ...]:
     if "intermediate" in by:
         claims.append(_zero(by["intermediate"]))
     if {"lateral", "intermediate"} <= by.keys():
-        claims += [_more(by["lateral"], by["intermediate"]), _beside(by)]
+        claims += [_more(by["lateral"], by["intermediate"]), _beside(by["lateral"], by["intermediate"])]
     if {"damped", "damped-intermediate"} <= by.keys():
-        claims.append(_damped(_more(by["damped"], by["damped-intermediate"])))
+        pair = by["damped"], by["damped-intermediate"]
+        claims += [_damped(_more(*pair)), _damped(_beside(*pair))]
     if "lateral" in by:
         claims.append(_edge(by["lateral"]))
     if {"lateral", "mirrored"} <= by.keys():
@@ -77,7 +83,7 @@ def judged(found: Sequence[GrooveEnsemble]) -> tuple[GrooveClaim, ...]:
         claims.append(_rolling(by["L2"], by["L2-mirrored"]))
     if "pinned" in by:
         claims.append(_pinned(by["pinned"]))
-    claims += [_refined(by["lateral"], by[name]) for name in REFINED if {"lateral", name} <= by.keys()]
+    claims += [_refined(by[one], by[other]) for one, other in REFINED if {one, other} <= by.keys()]
     return tuple(claims)
 
 
@@ -105,13 +111,12 @@ def _more(a: GrooveEnsemble, b: GrooveEnsemble) -> GrooveClaim:
 
 
 def _damped(claim: GrooveClaim) -> GrooveClaim:
-    """The same where contact takes what rebounds: a law that the paper does not have."""
-    title = "(b) with contact damped critically (nothing asked)"
-    return replace(claim, title=title, holds=True, asked=False)
+    """The same with a law that the paper does not have, and of which nothing is asked."""
+    return replace(claim, title=f"contact damped critically: {claim.title}", holds=True, asked=False)
 
 
-def _beside(by: Mapping[str, GrooveEnsemble]) -> GrooveClaim:
-    difference, p = _less(by["lateral"].crossed, by["intermediate"].crossed)
+def _beside(a: GrooveEnsemble, b: GrooveEnsemble) -> GrooveClaim:
+    difference, p = _less(a.crossed, b.crossed)
     yarns = measured().comparison.difference
     meets = "they meet" if difference.meets(yarns) else "they do not meet"
     told = f"{_told(difference)}, {p}; of the yarns {_told(yarns)}: {meets}"
