@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from dolfinrod.scene.mechanism import free_motions
+from dolfinrod.scene.mechanism import free_motions, overheld
 from dolfinrod.scene.motion import Dynamic
 
 if TYPE_CHECKING:
@@ -62,6 +62,8 @@ def advice(scene: Scene, found: Findings) -> str:
     if free and (found.t == 0.0 or found.pushed):
         also = f", to begin where rods touch what holds them, or {MASS}" if scene.contacts else ""
         return f"Likely a mechanism. Nothing holds the rods completely: {'; '.join(free)}. Try more supports{also}"
+    if found.t == 0.0 and (held := overheld(scene)):
+        return f"Likely an axial force that may be anything: {'; '.join(held)}. Try a section with its EA, not rigid"
     if mesh := _meshed(found):
         return mesh
     if found.critical is not None:

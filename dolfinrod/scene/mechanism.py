@@ -13,10 +13,12 @@ from dolfinrod.scene.supports import ROTATIONS, TRANSLATIONS, Prescribed
 if TYPE_CHECKING:
     from dolfinrod.scene.scene import Scene
 
-__all__ = ["free_motions", "named", "null_space", "turned_away"]
+__all__ = ["free_motions", "named", "null_space", "overheld", "turned_away"]
 
 # A rigid motion that supports resist with less than this fraction of their full grip is free.
 FREE = 1e-9
+# What a straight rod misses of its length between its ends, and what of an axis is along it, are no less than this.
+ALIGNED = 1e-9
 # Moments that sum up to less than this fraction of their magnitudes are balanced.
 BALANCED = 1e-9
 
@@ -77,6 +79,28 @@ def turned_away(scene: Scene) -> tuple[str, ...]:
                     f"rods[{k}] is free to turn about {about}, and its loads turn it with {net:.6g} N m{when}"
                 )
                 break
+    return tuple(sentences)
+
+
+def overheld(scene: Scene) -> tuple[str, ...]:
+    """Straight rods that cannot stretch and are held along themselves more than once: their axial force is anything.
+
+    Args:
+        scene: Any scene.
+
+    Returns:
+        One sentence a rod.
+    """
+    sentences = []
+    for k, rod in enumerate(scene.rods):
+        chord = np.asarray(rod.centerline(rod.length) - rod.centerline(0.0)) / rod.length
+        if "extension" not in rod.section.rigid or np.linalg.norm(chord) < 1.0 - ALIGNED:
+            continue
+        along = {a for a, part in zip(TRANSLATIONS, chord, strict=True) if abs(part) > ALIGNED}
+        held = [scene.location(support.at, support.rod) for support in scene.supports if along & support.held()]
+        places = {s for found in held for j, s in found if j == k}
+        if len(places) > 1:
+            sentences.append(f"rods[{k}] is straight, cannot stretch and is held along itself at {len(places)} places")
     return tuple(sentences)
 
 

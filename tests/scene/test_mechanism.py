@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +15,8 @@ import discrete
 import dolfinrod as dr
 from dolfinrod.scene.advice import Findings, advice
 from dolfinrod.scene.door import admit
-from dolfinrod.scene.mechanism import free_motions
+from dolfinrod.scene.mechanism import free_motions, overheld
+from tests.scenes import both_kinematics
 
 SECTION = dr.Section(EA=1e4, GA=1e4, GJ=1.0, EI=1.0)
 ROD = dr.Rod.straight(length=1.0, section=SECTION)
@@ -76,6 +78,30 @@ def test_a_rod_that_may_touch_something_is_let_in_and_others_are_not(load):
     with pytest.raises(dr.SceneError, match=r"^supports must hold the rods, or loads balance: rods\[1\] is free to "):
         admit(beside, None, dr.Result)
     admit(replace(loose, contacts=[FLOOR]), None, dr.Result)
+
+
+RIGID = dr.Rod.straight(length=1.0, section=dr.Section(GJ=1.0, EI=1.0, rigid={"shear", "extension"}))
+
+
+@both_kinematics
+def test_a_rod_that_cannot_stretch_and_is_held_along_itself_twice_is_told(kinematics):
+    """Its axial force is anything; let go along itself, or given an EA, it is solved."""
+    scene = dr.Scene([RIGID], [dr.Clamp("start"), dr.Pin("end")], [dr.LineForce((0.0, -1.0, 0.0))])
+    told = (
+        "Likely an axial force that may be anything: rods[0] is straight, cannot stretch and is held along itself at 2 "
+        "places. Try a section with its EA, not rigid"
+    )
+    with pytest.raises(dr.NotConverged, match=re.escape(told)):
+        dr.solve(scene, elements=4, kinematics=kinematics)
+    guided = replace(scene, supports=[dr.Clamp("start"), dr.Guide("end", free=("x", "ry", "rz"))])
+    stretching = replace(
+        scene, rods=[dr.Rod.straight(length=1.0, section=dr.Section(EA=1e4, GJ=1.0, EI=1.0, rigid={"shear"}))]
+    )
+    bent = replace(scene, rods=[dr.Rod.arc(radius=1.0, angle=1.0, section=RIGID.section)])
+    for sound in (guided, stretching):
+        assert dr.solve(sound, elements=4, kinematics=kinematics).converged
+    for other in (guided, stretching, bent):
+        assert overheld(other) == ()
 
 
 FLOOR = dr.Contact(dr.Plane())
