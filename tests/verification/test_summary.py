@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from dataclasses import fields, replace
 from xml.etree import ElementTree
 
 import jsonschema
@@ -17,6 +17,7 @@ from verification.groovescenarioclaims import GrooveClaim
 from verification.report import summarise, write
 from verification.report.misses import sentence
 from verification.report.outcomes import outcomes
+from verification.report.page import misses
 from verification.report.schema import schema
 from verification.report.sections import machine
 from verification.report.verdict import front, panels, sentences
@@ -50,6 +51,15 @@ def test_what_is_missed_is_said_first():
     missed = report(brackets=(BLIND,))
     assert "1 is beyond" in sentences(missed)[0]
     assert any(o.sign == "✗" for o in outcomes(missed))
+
+
+def test_a_report_without_limits_says_nothing_of_them():
+    """As of other people's solvers alone: a race has winners, and no number beyond its limit."""
+    full = report()
+    emptied = {f.name: () for f in fields(full) if isinstance(getattr(full, f.name), tuple)}
+    race = replace(full, **emptied)
+    assert not any("limit" in words for words in sentences(race))
+    assert misses(race) == ""
 
 
 def test_what_is_only_told_counts_as_nothing():

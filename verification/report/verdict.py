@@ -74,6 +74,8 @@ def sentences(report: Report) -> tuple[str, ...]:
 def _held(report: Report) -> str:
     kinds = outcomes(report)
     good, total, missed = sum(k.good for k in kinds), sum(k.total for k in kinds), len(report.missed)
+    if not total:
+        return ""
     slow = sum(k.total - k.good for k in kinds if k.mark == "slow")
     rest = {"explained at their cases": total - good - missed - slow, "of times on this machine": slow}
     others = "".join(f", {n} {words}" for words, n in rest.items() if n > 0)
