@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
+from itertools import pairwise
 from math import ceil, floor, log10
 
 __all__ = ["HEIGHT", "WIDTH", "Curve", "Star", "log_log", "markers", "power_of_ten", "svg", "text"]
@@ -178,18 +179,36 @@ def theory(curve: Curve, across: Axis, up: Axis) -> str:
     return f'<path class="theory" d="M{across(x0):.1f},{up(y0):.1f}L{across(x1):.1f},{up(y1):.1f}"/>'
 
 
-def labels(curves: Iterable[Curve], across: Axis, up: Axis) -> Iterable[str]:
-    """Labels of curves, beside their points where they cover no other one; left out where there is no such place."""
+def labels(curves: Sequence[Curve], across: Axis, up: Axis) -> Iterable[str]:
+    """Labels of curves, beside their points where they cover no other one nor, if there is such a place, a line."""
     taken: list[tuple[float, float, float]] = []
+    drawn = [dots for c in curves for dots in _dots([(across(x), up(y)) for x, y in zip(c.x, c.y, strict=True)])]
     for c in curves:
         if not c.label:
             continue
         x, y, wide = across(c.x[c.at]), up(c.y[c.at]), BROAD * len(c.label)
-        for begin, base in ((x + 5, y - 4), (x + 5, y + LETTER), (x - 5 - wide, y - 4)):
-            if all(abs(base - b) > LETTER or begin > a + w or a > begin + wide for a, b, w in taken):
-                taken.append((begin, base, wide))
-                yield text(begin, base, c.label, kind=c.kind)
-                break
+        sides = [(x + 5, y - 4), (x + 5, y + LETTER), (x - 5 - wide, y - 4), (x - 5 - wide, y + LETTER)]
+        inside = [(begin, base) for begin, base in sides if begin >= LEFT or begin > x]
+        free = [
+            (begin, base)
+            for begin, base in inside
+            if all(abs(base - b) > LETTER or begin > a + w or a > begin + wide for a, b, w in taken)
+        ]
+        clear = [
+            (begin, base)
+            for begin, base in free
+            if not any(begin - 2 < u < begin + wide and base - LETTER < v < base + 3 for u, v in drawn)
+        ]
+        for begin, base in (clear + free)[:1]:
+            taken.append((begin, base, wide))
+            yield text(begin, base, c.label, kind=c.kind)
+
+
+def _dots(points: Sequence[tuple[float, float]]) -> Iterable[tuple[float, float]]:
+    """Pixels along a line, as far from one another as a letter is wide at most."""
+    for (x, y), (a, b) in pairwise(points):
+        n = 1 + ceil(max(abs(a - x), abs(b - y)) / BROAD)
+        yield from ((x + k / n * (a - x), y + k / n * (b - y)) for k in range(n + 1))
 
 
 def star(point: Star, x: float, y: float) -> str:
