@@ -91,6 +91,9 @@ SETTINGS = (
         damped(replace(LATERAL, dt=0.5 * LATERAL.dt)),
         tells=False,
     ),
+    Setting(
+        "damped-L2", "lateral, core free to roll (L2), damped critically", variant(damped(LATERAL), "L2"), tells=False
+    ),
 )
 
 

@@ -81,6 +81,8 @@ def judged(found: Sequence[GrooveEnsemble]) -> tuple[GrooveClaim, ...]:
         claims.append(_still(by["still"]))
     if {"L2", "L2-mirrored"} <= by.keys():
         claims.append(_rolling(by["L2"], by["L2-mirrored"]))
+    if "damped-L2" in by:
+        claims.append(_damped(_rolled(by["damped-L2"])))
     if "pinned" in by:
         claims.append(_pinned(by["pinned"]))
     claims += [_refined(by[one], by[other]) for one, other in REFINED if {one, other} <= by.keys()]
@@ -165,6 +167,12 @@ def _rolling(one: GrooveEnsemble, image: GrooveEnsemble) -> GrooveClaim:
     return GrooveClaim(
         "(e) a core that rolls: Z from the left, S from the right, for sure", told, sure or not asked, asked
     )
+
+
+def _rolled(one: GrooveEnsemble) -> GrooveClaim:
+    mean, left = of_mean(one.crossed), sum(T > 0.0 for T in one.crossed)
+    told = f"{_told(mean)} from the left, Z in {left} of {len(one.crossed)} runs"
+    return GrooveClaim("(e) a core that rolls: Z from the left, for sure", told, mean.low > 0.0)
 
 
 def _pinned(one: GrooveEnsemble) -> GrooveClaim:
