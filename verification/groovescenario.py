@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from math import sqrt
 from typing import TYPE_CHECKING
 
 from dolfinrod.groove import Scenario, ensemble, variant
@@ -13,7 +12,7 @@ from dolfinrod.scene import Penalty
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["SEEDS", "SETTINGS", "GrooveEnsemble", "Setting", "damped", "gathered", "setting", "small"]
+__all__ = ["SEEDS", "SETTINGS", "GrooveEnsemble", "Setting", "gathered", "setting", "small"]
 
 # Bundles of an ensemble, and of those that ask for no statistics.
 SEEDS, FEW = 10, 3
@@ -27,13 +26,7 @@ STILL = replace(
     LATERAL, air=None, wall_friction=None, fibre_friction=None, ends=replace(LATERAL.ends, tension=2e-3), t_end=1e-3
 )
 TWICE = Penalty(2.0 * LATERAL.law.eps_N, LATERAL.law.g_0)
-
-
-def damped(scenario: Scenario) -> Scenario:
-    """Walls and fibres that damp what strikes them just so much that it would not swing: half τ √(ε_N/ρA) is one."""
-    ρA = scenario.bundle.section.rhoA
-    assert ρA is not None
-    return replace(scenario, law=replace(scenario.law, damping=2.0 * sqrt(ρA / scenario.law.eps_N)))
+DAMPED = variant(LATERAL, "damped")
 
 
 @dataclass(frozen=True)
@@ -83,17 +76,17 @@ SETTINGS = (
     ),
     Setting("half-steps", "lateral, steps half as long", replace(LATERAL, dt=0.5 * LATERAL.dt), tells=False),
     Setting("twice-penalty", "lateral, penalty twice as large", replace(LATERAL, law=TWICE), tells=False),
-    Setting("damped", "lateral, contact damped critically", damped(LATERAL), tells=False),
-    Setting("damped-intermediate", "intermediate, contact damped critically", damped(INTERMEDIATE), tells=False),
+    Setting("damped", "lateral, contact damped critically", DAMPED, tells=False),
+    Setting(
+        "damped-intermediate", "intermediate, contact damped critically", variant(INTERMEDIATE, "damped"), tells=False
+    ),
     Setting(
         "damped-half-steps",
         "lateral, contact damped critically, steps half as long",
-        damped(replace(LATERAL, dt=0.5 * LATERAL.dt)),
+        replace(DAMPED, dt=0.5 * LATERAL.dt),
         tells=False,
     ),
-    Setting(
-        "damped-L2", "lateral, core free to roll (L2), damped critically", variant(damped(LATERAL), "L2"), tells=False
-    ),
+    Setting("damped-L2", "lateral, core free to roll (L2), damped critically", variant(DAMPED, "L2"), tells=False),
 )
 
 

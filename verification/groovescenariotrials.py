@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
-from dolfinrod.groove import Scenario
+from dolfinrod.groove import Scenario, variant
 from dolfinrod.groove.paper import MESHES, READINGS
 from dolfinrod.groove.scenario import MODELS
 from verification.groovepaper import as_printed
-from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, damped, gathered, small
+from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, gathered, small
 from verification.groovescenariobeside import brief, by_both, with_image
 from verification.groovescenariosteps import in_shorter_steps
 from verification.ledger import Unit
@@ -106,7 +106,7 @@ def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:
         )
     if {SCENARIOS, STEPPED} & asked and not quick:
         elastic, model = replace(small(LATERAL), t_end=STRUCK, output=LOOKED), "discrete"
-        for law, posed in (("a penalty", elastic), ("a damped penalty", damped(elastic))):
+        for law, posed in (("a penalty", elastic), ("a damped penalty", variant(elastic, "damped"))):
             words = f"A bundle in ever shorter steps, {law}: {model}"
             key = ("steps", law, model, posed.fibres, posed.t_end)
             yield Unit("groove scenario", words, key, partial(in_shorter_steps, posed, model))

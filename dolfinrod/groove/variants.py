@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import sqrt
 from typing import Any, Literal
 
-from dolfinrod.groove.core import FixedCore, RollingCore
+from dolfinrod.groove.core import AnyCore, FixedCore, RollingCore
 from dolfinrod.groove.limits import known
 from dolfinrod.groove.scenario import Scenario
-from dolfinrod.scene import Coulomb, SceneError
+from dolfinrod.scene import Coulomb, Penalty, SceneError, SmoothPenalty
 
 __all__ = ["VARIANTS", "variant", "varied"]
 
@@ -23,6 +24,7 @@ VARIANTS = {
     "pinned": "fibres held sideways at B, too: net winding cannot change",
     "transport": "fibres and roller go on at the speed of the machine, the nip at A with them",
     "transit": "the nip at A has let go of the fibres: they and the roller go on at the speed of the machine",
+    "damped": "what strikes a wall, a fibre or the core does not swing back, being damped critically: an extension",
     "mirrored": "left is right",
 }
 # Of delivery [m/s]: 7000 r/min at 680 turns/m.
@@ -58,6 +60,7 @@ def _changes(scenario: Scenario) -> dict[str, Callable[[], dict[str, Any]]]:
         "pinned": lambda: {"ends": replace(ends, exit="held")},
         "transport": lambda: {"ends": replace(ends, speed=DELIVERY)},
         "transit": lambda: {"ends": replace(ends, speed=DELIVERY, leading=(), trailing=range(1, n + 1))},
+        "damped": lambda: {"law": _damped(scenario)},
         "mirrored": lambda: {"mirrored": not scenario.mirrored},
     }
 
@@ -88,8 +91,18 @@ def _around(scenario: Scenario, core: FixedCore | RollingCore) -> dict[str, Any]
 
     With the law of fibres a core of 52 of them presses two that cross between it and the wall half-way into each other.
     """
-    was, heavy = (one.fibres if isinstance(one, RollingCore) else 1.0 for one in (scenario.core, core))
-    return {"core": core, "law": scenario.law.softened(was / heavy)}
+    return {"core": core, "law": scenario.law.softened(_weight(scenario.core) / _weight(core))}
+
+
+def _weight(core: AnyCore | None) -> float:
+    """Mass of the heaviest that moves, in fibres."""
+    return core.fibres if isinstance(core, RollingCore) else 1.0
+
+
+def _damped(scenario: Scenario) -> Penalty | SmoothPenalty:
+    """The law with ½ τ √(ε_N/ρA) = 1, ρA being that of the heaviest that moves."""
+    law, ρA = scenario.law, _weight(scenario.core) * (scenario.bundle.section.rhoA or 0.0)
+    return replace(law, damping=2.0 * sqrt(ρA / law.eps_N))
 
 
 def _rubbing(scenario: Scenario, at: Literal["surface", "centreline"]) -> dict[str, Any]:

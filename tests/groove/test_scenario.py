@@ -149,6 +149,11 @@ def test_variants_change_what_they_say():
     assert L2.law.g_0 == base.law.g_0
     assert variant(L2, "L2") == L2
     assert variant(L2, "L1") == base
+    damped = variant(base, "damped")
+    # A fibre that strikes a wall has half τ √(ε_N/ρA) = 1; so has a core of 52 on contact 52 times as stiff.
+    assert damped.law.damping == pytest.approx(2.0 * np.sqrt(base.bundle.section.rhoA / base.law.eps_N))
+    assert variant(damped, "L2") == variant(L2, "damped")
+    assert variant(damped, "damped") == damped
     pinned = [s for s in variant(base, "pinned").scene().supports if isinstance(s, Guide)]
     assert [s.free for s in pinned] == [frozenset({"x", "rx", "ry", "rz"})] * 5
     trailing = variant(base, "S-trailing").scene()

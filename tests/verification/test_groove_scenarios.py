@@ -9,7 +9,7 @@ import pytest
 from dolfinrod.groove.scenario import MODELS
 from verification import groovescenariotrials
 from verification.groovepaper import as_printed
-from verification.groovescenario import LATERAL, SEEDS, SETTINGS, GrooveEnsemble, damped, gathered, setting
+from verification.groovescenario import DAMPED, LATERAL, SEEDS, SETTINGS, GrooveEnsemble, gathered, setting
 from verification.groovescenariobeside import brief, by_both, with_image
 from verification.groovescenarioclaims import judged, with_claims
 from verification.groovescenariosteps import NUDGE, GrooveSteps, in_shorter_steps
@@ -171,7 +171,7 @@ def test_paths_are_trusted_until_they_differ_by_the_noise_and_must_near_one_anot
 
 @pytest.mark.parametrize("model", MODELS)
 def test_where_contact_is_damped_a_strike_gives_back_what_its_ratio_says(model):
-    found = in_shorter_steps(damped(replace(LATERAL, fibres=1, elements=4, dt=2e-7, t_end=4e-6, output=1e-6)), model)
+    found = in_shorter_steps(replace(DAMPED, fibres=1, elements=4, dt=2e-7, t_end=4e-6, output=1e-6), model)
     assert found.damping == pytest.approx(1.0)
     assert found.rebound[0] < found.rebound[1] < found.rebound[2] < restitution(1.0)
     assert found.rebound[2] == pytest.approx(restitution(1.0), rel=0.06)
