@@ -18,6 +18,8 @@ EPS = 1e4
 # Half a period of a point mass ρA on the stiffness ε_N, all in units of 1.
 BOUNCE = np.pi / np.sqrt(EPS)
 both_schemes = pytest.mark.parametrize("scheme", [dr.ImplicitEuler(), dr.Midpoint()], ids=["Euler", "midpoint"])
+LAWS = dr.Penalty(EPS), dr.Penalty(EPS, damping=0.3 / np.sqrt(EPS))
+both_laws = pytest.mark.parametrize("law", LAWS, ids=["elastic", "damped"])
 MESH = {"elements": 2, "degree": 3}
 
 
@@ -254,12 +256,14 @@ def test_a_solid_cylinder_rolls():
 
 
 @both_schemes
+@both_laws
 @pytest.mark.serial
-def test_a_motion_goes_on_where_it_was_stopped(tmp_path, scheme):
+def test_a_motion_goes_on_where_it_was_stopped(tmp_path, law, scheme):
     """Anchors and slips are kept, in a result and in a file: stopped halfway, a motion ends where it would have."""
 
     def scene(t_end: float) -> dr.Scene:
-        return thrown(dr.Dynamic(t_end, BOUNCE / 20, scheme), (0.3, -1.0, 0.2), friction=dr.Coulomb(0.4))
+        motion = dr.Dynamic(t_end, BOUNCE / 20, scheme)
+        return thrown(motion, (0.3, -1.0, 0.2), friction=dr.Coulomb(0.4), law=law)
 
     def stop(row: dr.StepLog, _: float) -> None:
         if row.t > 0.6 * BOUNCE:
@@ -275,19 +279,21 @@ def test_a_motion_goes_on_where_it_was_stopped(tmp_path, scheme):
         assert max(differences(result, whole).values()) <= 1e-9
         slip = result.contacts[0].rods[0].slip[-1]
         np.testing.assert_allclose(slip, whole.contacts[0].rods[0].slip[-1], atol=1e-12)
-        assert result.energy["friction"][-1] == pytest.approx(whole.energy["friction"][-1], rel=1e-9)
+        for name in ("friction", "damping"):
+            assert result.energy[name][-1] == pytest.approx(whole.energy[name][-1], rel=1e-9)
 
 
 @both_schemes
+@both_laws
 @both_kinematics
-def test_ranks_do_not_matter(kinematics, scheme):
+def test_ranks_do_not_matter(kinematics, law, scheme):
     motion = dr.Dynamic(BOUNCE, BOUNCE / 20, scheme)
-    scene = thrown(motion, (0.8, -1.0, 0.0), friction=dr.Coulomb(0.2))
+    scene = thrown(motion, (0.8, -1.0, 0.0), friction=dr.Coulomb(0.2), law=law)
     together, alone = (
         dr.solve(scene, kinematics=kinematics, comm=comm, **MESH) for comm in (MPI.COMM_WORLD, MPI.COMM_SELF)
     )
     assert max(differences(together, alone).values()) <= 1e-8
-    for name in ("friction", "contact", "wall work"):
+    for name in ("friction", "damping", "contact", "wall work"):
         np.testing.assert_allclose(together.energy[name], alone.energy[name], atol=1e-10)
 
 

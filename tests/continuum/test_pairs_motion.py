@@ -138,11 +138,12 @@ def test_ranks_do_not_matter(law, scheme):
 
 
 @EULER_SLOWLY
-def test_an_interrupted_bundle_goes_on_to_the_same_answer(scheme, shared_path, monkeypatch):
+@pytest.mark.parametrize("law", [LAW, DAMPED], ids=["elastic", "damped"])
+def test_an_interrupted_bundle_goes_on_to_the_same_answer(law, scheme, shared_path, monkeypatch):
     """By its file and by the result, anchors of friction included."""
     monkeypatch.setattr(clock, "INTERVAL", 0.0)
     monkeypatch.setattr(clock, "SPARING", 0.0)
-    scene, file = bundle(scheme, ROUGH, steps=8), shared_path / "bundle.h5"
+    scene, file = bundle(scheme, ROUGH, steps=8, law=law), shared_path / "bundle.h5"
     whole = dr.solve(scene, **MESH)
 
     def stop(step: dr.StepLog, _t_end: float) -> None:

@@ -185,7 +185,7 @@ def test_a_cylinder_rolls_down_a_slope():
     assert unaccounted(result) < 1e-9
 
 
-def whirled(**motion: object) -> Scene:
+def whirled(damping: float = 0.0, **motion: object) -> Scene:
     """A clamped heavy rod, swung against two walls that move, one of them rough."""
     rod = Rod.curved(
         1.0, HEAVY, (0.4, 0.5, 1.0), SKEW.placed((0, 0, 0)), SKEW.turned((1, 0, 0)), SKEW.turned((0, 1, 0))
@@ -193,16 +193,20 @@ def whirled(**motion: object) -> Scene:
     shaken = WallMotion(displacement=SKEW.turned((0.05, 0.1, 0)), history=((0.0, 0.0), (0.11, 1.0), (0.2, 0.3)))
     floor = Plane(SKEW.placed((0, 0, -0.1)), SKEW.turned((0.1, 0, 1)), shaken)
     side = Plane(SKEW.placed((0, -0.03, 0)), SKEW.turned((0, 1, 0.2)), WallMotion(spin=SKEW.turned((0, 0.4, 0))))
-    contacts = [Contact(floor, Penalty(3e3, 0.01), Coulomb(0.5)), Contact(side, SmoothPenalty(1e4, 1e-3), Coulomb(0.2))]
+    contacts = [
+        Contact(floor, Penalty(3e3, 0.01, damping), Coulomb(0.5)),
+        Contact(side, SmoothPenalty(1e4, 1e-3, damping=damping), Coulomb(0.2)),
+    ]
     loads = [LineForce(SKEW.turned((0.0, -8.0, -20.0))), PointForce(SKEW.turned((0, 0, 1.0)), 0.7)]
     thrown = [Velocity(omega=SKEW.turned((0, 1.0, -0.5)))]
     motion = Dynamic(**{"t_end": 0.3, "dt": 0.01} | motion)
     return Scene([rod], [Clamp("start")], loads, contacts=contacts, motion=motion, velocities=thrown)
 
 
+@pytest.mark.parametrize("damping", [0.0, 0.01], ids=["elastic", "damped"])
 @pytest.mark.parametrize("steps", [{}, {"dt": None, "tol": 1e-3}], ids=["equal", "free"])
-def test_the_ledger_closes(steps):
-    result = discrete.solve(whirled(**steps), elements=6)
+def test_the_ledger_closes(steps, damping):
+    result = discrete.solve(whirled(damping, **steps), elements=6)
     assert unaccounted(result) < 1e-9
     e = result.energy
     for name in ("contact", "friction", "wall work"):

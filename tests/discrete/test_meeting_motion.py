@@ -131,9 +131,10 @@ def test_a_shot_is_cut_and_does_not_go_through():
 
 
 @pytest.mark.serial
-def test_a_run_in_two_parts_is_one_run(tmp_path):
+@pytest.mark.parametrize("law", [ELASTIC, DAMPED], ids=["elastic", "damped"])
+def test_a_run_in_two_parts_is_one_run(law, tmp_path):
     """From a checkpoint and from the record of the first part, in the midst of an impact with friction."""
-    scene = bundle(Coulomb(MU), FLAT, t_end=2.4e-5, output=8e-6)
+    scene = bundle(Coulomb(MU), FLAT, law, t_end=2.4e-5, output=8e-6)
     whole = discrete.solve(scene, elements=6)
 
     def stop(row: object, _: float) -> None:
