@@ -84,6 +84,22 @@ def test_a_law_too_soft_for_what_is_thrown_is_told_as_such(solve: Callable[..., 
     assert solve(replace(scene, contacts=[dr.RodContact(dr.Penalty(1e7))])).t[-1] == pytest.approx(1e-5)
 
 
+@pytest.mark.parametrize(
+    ("motion", "apart"),
+    [(dr.Static(), 0.0), (dr.Dynamic(1e-5, 1e-6), 0.0), (dr.Dynamic(1e-5, 1e-6), 3e-6)],
+    ids=["one in the other", "one in the other, in motion", "across, in motion"],
+)
+@pytest.mark.parametrize("solve", [partial(dr.solve, elements=2, degree=2), partial(discrete.solve, elements=4)])
+def test_rods_placed_in_one_another_are_told_as_such(solve: Callable[..., dr.Result], apart: float, motion) -> None:
+    fibre = dr.Section.ramie()
+    one = dr.Rod.straight(2e-3, fibre)
+    other = dr.Rod.straight(2e-3, fibre, start=(0.0, apart, -1e2 * apart), direction=(1, 0, 3e5 * apart))
+    load = dr.LineForce((0.0, -1e-3, 0.0), rod=1)
+    scene = dr.Scene([one, other], [dr.Clamp("start")], [load], contacts=[dr.RodContact()], motion=motion)
+    with pytest.raises(dr.NotConverged, match="rods begin half-way within one another: place them apart"):
+        solve(scene)
+
+
 @given(table=st.lists(st.floats(0.0, 9.0), min_size=1, max_size=3, unique=True).map(sorted))
 def test_contact_among_rods_adds_no_corners(table: list[float]) -> None:
     load = dr.PointForce((0, 1, 0), "end", history=[(t, t) for t in table])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dolfinrod.scene.compiled import compiled
 from dolfinrod.scene.meeting.changes import Changes, applied, diagonal, summed
 
-__all__ = ["Coupling", "Felt", "Nodal", "dealt"]
+__all__ = ["Coupling", "Felt", "Nodal", "dealt", "paired"]
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
@@ -41,6 +41,12 @@ def dealt(nodes: Integers, h: Array, lever: Array, forces: Array, couples: Array
             for j in range(3):
                 turned[nodes[i, a], j] -= lever[i, a] * couples[i, j]
     return felt, turned
+
+
+def paired(cells: Integers) -> tuple[Integers, Integers]:
+    """First points of each run of points that lie on one pair of cells, and the number of its run for each point."""
+    other = np.diff(cells, prepend=-1) != 0
+    return np.flatnonzero(other), np.cumsum(other) - 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,11 +15,11 @@ from dolfinrod.meetings import Meetings
 from dolfinrod.scene.friction import anchoring
 from dolfinrod.scene.meeting.acting import derivatives, forces
 from dolfinrod.scene.meeting.anchors import Anchors, keys, matched
-from dolfinrod.scene.meeting.coupling import Coupling, Felt, dealt
+from dolfinrod.scene.meeting.coupling import Coupling, Felt, dealt, paired
 from dolfinrod.scene.meeting.curves import Spans, dot
 from dolfinrod.scene.meeting.leaping import PART, kinetic, work
 from dolfinrod.scene.meeting.neighbours import Neighbours
-from dolfinrod.scene.meeting.passing import PASSED, SQUEEZED, passes, squeezed
+from dolfinrod.scene.meeting.passing import PASSED, PLACED, SQUEEZED, passes, squeezed
 from dolfinrod.scene.meeting.pressed import Pressed, load
 from dolfinrod.scene.meeting.record import record
 from dolfinrod.scene.meeting.slipping import Slip, slide
@@ -143,9 +143,8 @@ class Meeting:
         self.forced = slip is not None and slip.rubbing.forced
         found = np.stack([self._key, state])
         self.changed, self._state = self.forced or not np.array_equal(found, self._state), found
-        at = pressed.facing
-        lever = np.zeros((len(at.h), 0)) if slip is None or not self.turns else slip.ways.lever
-        return Felt(*dealt(at.nodes, at.h, lever, *forces(pressed, slip), self._n))
+        lever = np.zeros((len(pressed.p), 0)) if slip is None or not self.turns else slip.ways.lever
+        return Felt(*dealt(pressed.facing.nodes, pressed.facing.h, lever, *forces(pressed, slip), self._n))
 
     def _led(self, x: Array) -> Pressed:
         """Points under load."""
@@ -178,11 +177,8 @@ class Meeting:
     def gradient(self) -> Coupling:
         """Derivatives of the last answer, the intervals of contact kept."""
         pressed, cell = self._pressed, self._spans.cell
-        if self.steady:
-            pressed = replace(pressed, p=np.zeros_like(pressed.p))
-        cells = (cell[-1] + 1) * cell[pressed.a] + cell[pressed.b]
-        other = np.diff(cells, prepend=-1) != 0
-        first, pair = np.flatnonzero(other), np.cumsum(other) - 1
+        pressed = replace(pressed, p=np.zeros_like(pressed.p)) if self.steady else pressed
+        first, pair = paired((cell[-1] + 1) * cell[pressed.a] + cell[pressed.b])
         limits = (0.0, 0.0) if self.contact.friction is None else (self.contact.friction.mu, self._ε_T)
         changes = derivatives(pressed, self._slip, limits, turns=self.turns)
         return Coupling(pressed.facing.nodes[first], pair, self._n, changes, self.turns)
@@ -190,7 +186,7 @@ class Meeting:
     def pierces(self) -> str:
         """In words, how a rod has gone half-way into another in the step, or through it; empty: none has."""
         if squeezed(self._pressed):
-            return SQUEEZED
+            return PLACED if squeezed(self._pressed_0()) else SQUEEZED
         ways = self._course_0, self._course
         return PASSED if passes(*ways, *self._near.swept(*ways)) else ""
 
@@ -230,8 +226,12 @@ class Meeting:
     def _pressed_in(self) -> float:
         """The same in penetrations alone."""
         if self._stored is None:
-            self._stored = self._in(load(self._near, points(self._began()), self.contact.law, (self._course_0,)))
+            self._stored = self._in(self._pressed_0())
         return self._stored
+
+    def _pressed_0(self) -> Pressed:
+        """Points under load where the step began."""
+        return load(self._near, points(self._began()), self.contact.law, (self._course_0,))
 
     def memory(self) -> dict[str, Array]:
         """All that is remembered, one row a point: what `recall` takes."""

@@ -14,9 +14,10 @@ from dolfinrod.scene.meeting.pressed import Pressed
 from dolfinrod.scene.meeting.projection import between_chords
 from dolfinrod.scene.meeting.record import least
 
-__all__ = ["PASSED", "SQUEEZED", "passes", "squeezed"]
+__all__ = ["PASSED", "PLACED", "SQUEEZED", "passes", "squeezed"]
 
 PASSED = "a rod went through or leapt past another in one step, which was too long"
+PLACED = "rods begin half-way within one another: place them apart"
 SQUEEZED = "rods are pressed half-way into one another, so RodContact.law needs a larger eps_N"
 
 Array = NDArray[np.float64]

@@ -46,7 +46,7 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
     Returns:
         One row a spot under load: one that damping alone keeps from any is left out.
     """
-    a, b, facing = pressed.a, pressed.b, pressed.facing
+    a, b = pressed.a, pressed.b
     _, first, spot = np.unique(a * len(spans.radius) + spans.rod[b], return_index=True, return_inverse=True)
     n, weight = int(spot.max(initial=-1)) + 1, pressed.length * pressed.p
     load = _sums(spot, weight, n)
@@ -55,7 +55,7 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
     def mean(values: Array) -> Array:
         return _sums(spot, share * values, n)
 
-    normal = _gather(spot, weight[:, None] * facing.normal, n)
+    normal = _gather(spot, weight[:, None] * pressed.facing.normal, n)
     rubs = _gather(spot, pressed.length[:, None] * traction, n)
     slides = np.zeros(n, dtype=np.int8)
     np.maximum.at(slides, spot, state)
@@ -68,11 +68,17 @@ def record(spans: Spans, pressed: Pressed, x: Array, traction: Array, state: NDA
         least(pressed, spot, n),
         _sums(spot, 2.0 * pressed.length, n),
         normal + rubs,
-        normal / np.where(load > 0.0, np.linalg.norm(normal, axis=1), 1.0)[:, None],
+        _units(normal),
         rubs,
         slides,
     )
     return met if (load > 0.0).all() else _only(met, load > 0.0)
+
+
+def _units(vectors: Array) -> Array:
+    """Of length one, but for those of none."""
+    size = np.linalg.norm(vectors, axis=1)
+    return np.asarray(vectors / np.where(size > 0.0, size, 1.0)[:, None])
 
 
 def _only(met: Meetings, spots: NDArray[np.bool_]) -> Meetings:
