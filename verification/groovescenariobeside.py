@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from dolfinrod.groove import Course
     from dolfinrod.result import Result
 
-__all__ = ["AGREES", "MIRRORED", "GrooveImage", "GrooveModels", "by_both", "with_image"]
+__all__ = ["AGREES", "MIRRORED", "GrooveImage", "GrooveModels", "by_both", "titled", "with_image"]
 
 # Difference of the models' widths before fibres touch one another, of the width at first: the discrete model's second
 # order on 80 elements is a part in a thousand of the way. And that of a mirror image, of the length.
@@ -106,7 +106,7 @@ def by_both(scenario: Scenario) -> GrooveModels:
     n = min(len(over.t) for over in courses)
     width = np.stack([over.width[:n] for over in courses])
     return GrooveModels(
-        title=f"{scenario.fibres} fibres, {scenario.kind}, {scenario.elements} elements",
+        title=titled(scenario),
         t=_listed(courses[0].t[:n]),
         **{
             name: tuple(_listed(getattr(over, name)[:n]) for over in courses)
@@ -117,6 +117,12 @@ def by_both(scenario: Scenario) -> GrooveModels:
         met=float(courses[0].t[i]),
         apart=float(np.abs(np.diff(width[:, : i + 1], axis=0)).max() / width[0, 0]),
     )
+
+
+def titled(scenario: Scenario) -> str:
+    """What tells one bundle from others."""
+    damped = ", contact damped" if scenario.law.damping > 0.0 else ""
+    return f"{scenario.fibres} fibres, {scenario.kind}{damped}, {scenario.elements} elements"
 
 
 def with_image(scenario: Scenario, model: str) -> GrooveImage:

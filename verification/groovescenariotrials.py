@@ -10,8 +10,8 @@ from dolfinrod.groove import Scenario, variant
 from dolfinrod.groove.paper import MESHES, READINGS
 from dolfinrod.groove.scenario import MODELS
 from verification.groovepaper import as_printed
-from verification.groovescenario import INTERMEDIATE, LATERAL, SETTINGS, Setting, gathered, small
-from verification.groovescenariobeside import brief, by_both, with_image
+from verification.groovescenario import DAMPED, INTERMEDIATE, LATERAL, SETTINGS, Setting, gathered, small
+from verification.groovescenariobeside import brief, by_both, titled, with_image
 from verification.groovescenariosteps import in_shorter_steps
 from verification.ledger import Unit
 
@@ -80,7 +80,7 @@ def units(asked: tuple[str, ...], *, quick: bool) -> Iterator[Unit]:
     yield from _alone(set(asked), quick)
     for one in SETTINGS if ACCEPTANCE in asked else ():
         yield _ensemble(one)
-    for scenario in (LATERAL, INTERMEDIATE) if ACCEPTANCE in asked else ():
+    for scenario in (LATERAL, INTERMEDIATE, DAMPED) if ACCEPTANCE in asked else ():
         yield _by_both(scenario)
     if PAPER in asked:
         yield from _paper(quick=quick)
@@ -113,8 +113,9 @@ def _alone(asked: set[str], quick: bool) -> Iterator[Unit]:
 
 
 def _by_both(posed: Scenario) -> Unit:
-    words = f"One bundle by both models: {posed.kind}"
-    return Unit("groove scenario", words, ("models", posed.kind, posed.fibres, posed.t_end), partial(by_both, posed))
+    title = titled(posed)
+    key = ("models", title, posed.fibres, posed.t_end)
+    return Unit("groove scenario", f"One bundle by both models: {title}", key, partial(by_both, posed))
 
 
 def _short(scenario: Scenario) -> Scenario:
