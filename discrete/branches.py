@@ -13,6 +13,8 @@ from discrete.predictor import shape_change
 from discrete.unknowns import N_NODE, SPIN
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from discrete.equilibrium import Equilibrium
@@ -27,8 +29,9 @@ __all__ = ["Branches"]
 
 # Part of the length of the rod, a unit of pseudo-time, by which the path leads the way in which a state gives way.
 PUSHED = 1e-7
-# Turn by which a rod is sent ahead the way the loads push it [rad].
-SENT = 0.5
+# Turns by which a rod is sent ahead the way the loads push it, one after the other [rad]: just beyond a critical point
+# the other branch is near.
+SENT = (0.5, 0.05, 5e-3, 5e-4)
 # Cosine between the rate and the change of shape below which they point apart, and a change that is round-off.
 SAME_WAY, SLIGHT = 0.5, 1e-9
 
@@ -64,19 +67,20 @@ class Branches:
         except SingularTangentError:
             return True
 
-    def sent_ahead(self, last: State, t_last: float) -> State:
-        """A stable state moved on the way that it takes, far enough to be on no other branch.
+    def sent_ahead(self, last: State, t_last: float) -> Iterator[State]:
+        """A stable state moved on the way that it takes, so far as to be on no other branch, and less far.
 
         Args:
             last: The state.
             t_last: Its pseudo-time.
 
-        Returns:
-            A first guess for an equilibrium beyond the critical point.
+        Yields:
+            First guesses for an equilibrium beyond the critical point.
         """
         rate = self._onward(last, t_last)
         turn = float(np.sqrt(np.square(rate[:, SPIN]).sum(axis=1).max()))
-        return moved(last, self._equilibrium.mesh.elements.node_i, rate, SENT / max(turn, SENT))
+        for sent in SENT:
+            yield moved(last, self._equilibrium.mesh.elements.node_i, rate, sent / max(turn, sent))
 
     def next_critical(self, last: State, t_last: float) -> float:
         """Pseudo-time at which the loads are critical next, seen from an equilibrium; infinite where they never are."""

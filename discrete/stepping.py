@@ -40,8 +40,9 @@ EASY = 16
 CLOSE = 0.01
 # Directions that a round rod loses at once: where more are lost, what pushed the rod at first is not seen any more.
 PAIR = 2
-# Ways to a critical point over which steps are measured by them, where they are this much shorter than an interval.
-BEHIND, SHORT = 4.0, 16.0
+# Ways to a critical point over which steps are measured by them, where they are this much shorter than an interval, and
+# what of one is tried after all of it: no sum of halves and doubles of that ends where all of it did.
+BEHIND, SHORT, LESS = 4.0, 16.0, 0.75
 # Turn of a section from the extrapolated state at which an unstable path may have been left [rad].
 STRAYED = 0.5
 
@@ -117,7 +118,7 @@ class Walk:
             if verdict is None:
                 if outcome.reason == DEEP:
                     raise self._failed(trial, outcome.reason, scale.interval)
-                cuts, self._step = cuts + 1, trial / 2.0
+                cuts, self._step = cuts + 1, trial * (LESS if trial == scale.way else 0.5)
                 if self._step <= scale.at(t) / 2**MOST_CUTS:
                     raise self._failed(trial, outcome.reason, scale.interval)
                 continue
@@ -182,11 +183,13 @@ class Walk:
         """The stable state that the loads push the rod to from the last one, or else what was found."""
         if not self._stable:
             return outcome, verdict
-        guess = self._branches.sent_ahead(self._memory.state, self._memory.t)
-        other = self._phase.find(guess, t)
-        self._path.iterations += other.iterations
-        _, found = self._judged(other)
-        return (other, found) if found is not None and found.stable else (outcome, verdict)
+        for guess in self._branches.sent_ahead(self._memory.state, self._memory.t):
+            other = self._phase.find(guess, t)
+            self._path.iterations += other.iterations
+            _, found = self._judged(other)
+            if found is not None and found.stable:
+                return other, found
+        return outcome, verdict
 
     def _accept(self, outcome: Outcome, verdict: Verdict, t: float, cuts: int, progress: Progress | None) -> None:
         equilibrium, path = self._phase.equilibrium, self._path

@@ -34,12 +34,12 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Aside", "push_aside"]
+__all__ = ["AWAY", "Aside", "aside"]
 
-# Largest turn of a section by which the state is left [rad]. The energy −½ |λ| a² + c a⁴ has its bottom at some a₀, and
-# Newton's method falls into it from beyond a₀/√3, where its tangent is positive. Rods that buckle turn by less than
-# half a turn.
-AWAY = float(np.pi / np.sqrt(3.0))
+# Largest turns of a section by which the state is left, one after the other [rad]. The energy −½ |λ| a² + c a⁴ has its
+# bottom at some a₀, and Newton's method falls into it from beyond a₀/√3, where its tangent is positive. Rods that
+# buckle turn by less than half a turn, but those whose ends are brought together only by what leaves room for them.
+AWAY = tuple(float(np.pi / np.sqrt(3.0)) * 0.1**k for k in range(4))
 # Most vectors of Lanczos' method, each of which costs a solution with factors: low modes of S are large ones of S⁻¹.
 MOST = 10
 # Part of a way that goes along the direction, over all of it and over 1 rad, below which its side is round-off: the
@@ -51,17 +51,31 @@ ALONG = float(np.sqrt(0.5))
 
 @dataclass(frozen=True)
 class Aside:
-    """An unstable equilibrium that has been left.
+    """An unstable equilibrium, and the direction in which it may be left.
 
     Args:
         newton: That has found it.
+        start: This rank's unknowns there.
+        change: By which they change in that direction, with a largest turn of 1 rad.
         rotations: Of this rank's nodes there, shape (n, n_q).
-        spins: Direction in which it was left, shape (n, n_spin).
+        increment: By which these turn, shape (n, n_spin).
+        spins: The same as spins, shape (n, n_spin).
     """
 
     newton: Newton
+    start: Array
+    change: Array
     rotations: Array
+    increment: Array
     spins: Array
+
+    def leave(self, turn: float) -> None:
+        """Push the problem off by a largest turn of a section [rad]."""
+        problem, d = self.newton.problem, self.newton.problem.discretization
+        problem.x[: len(self.start)] = self.start
+        problem.x[: len(self.change)] += turn * self.change
+        problem.x[d.owned_nodes("q")] = problem.kinematics.turn(self.rotations, turn * self.increment)
+        d.x.x.scatter_forward()
 
     def reached(self) -> bool:
         """Whether the problem's present state lies in that direction, more along it than across.
@@ -75,15 +89,15 @@ class Aside:
         return along > ALONG * np.sqrt(_dot(comm, way, way) * _dot(comm, self.spins, self.spins))
 
 
-def push_aside(newton: Newton, last: Array) -> Aside | None:
-    """Push the problem off the unstable equilibrium where it is.
+def aside(newton: Newton, last: Array) -> Aside | None:
+    """Which way the unstable equilibrium where the problem is may be left.
 
     Args:
         newton: That has just found it.
         last: The equilibrium on this rank that it has set out from.
 
     Returns:
-        How it was left; None if it was not: not one direction, but none or several are lost, or its side is not known.
+        The way; None where not one direction, but none or several are lost, or its side is not known.
     """
     problem, d, set_out = newton.problem, newton.problem.discretization, newton.set_out
     if set_out is None:
@@ -95,10 +109,8 @@ def push_aside(newton: Newton, last: Array) -> Aside | None:
         return None
     increment = kin.increment(at, change[q])
     largest = d.comm.allreduce(float(kin.angles(increment).max(initial=0.0)), op=MPI.MAX)
-    x[: len(change)] += AWAY / largest * change
-    x[q] = kin.turn(at, AWAY / largest * increment)
-    d.x.x.scatter_forward()
-    return Aside(newton, at, _spins(kin.spin(at), increment))
+    change, increment = change / largest, increment / largest
+    return Aside(newton, x.copy(), change, at, increment, _spins(kin.spin(at), increment))
 
 
 def _direction(newton: Newton, ways: tuple[Array, Array]) -> Array | None:

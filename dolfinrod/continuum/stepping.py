@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dolfinrod.continuum.ahead import critical_ahead
-from dolfinrod.continuum.aside import push_aside
+from dolfinrod.continuum.aside import AWAY, aside
 from dolfinrod.continuum.neutral import equilibrium
 from dolfinrod.continuum.pressed import DIRECT
 from dolfinrod.continuum.stability import Verdict
@@ -200,17 +200,20 @@ class Walk:
         self._readout.restore(path.states[-1])
         last = problem.x.copy()
         self._readout.restore(state)
-        left = push_aside(self.newton, last)
-        if left is not None:
+        way = aside(self.newton, last)
+        if way is None:
+            return found
+        for turn in AWAY:
+            way.leave(turn)
             again = equilibrium(self.newton, self._phase, last)
             path.iterations += again.iterations
-            reached = again.converged and not again.strayed and left.reached()
+            reached = again.converged and not again.strayed and way.reached()
             if reached and largest_turn_between_nodes(problem) <= ALIASED:
                 beside = self._readout.state()
                 judged = self._judged(beside, t, closely=False)
                 if judged.stable:
                     return replace(again, iterations=outcome.iterations + again.iterations), beside, judged
-            self._readout.restore(state)
+        self._readout.restore(state)
         return found
 
     def _extrapolated(self, factor: float) -> State:

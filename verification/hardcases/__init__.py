@@ -1,7 +1,7 @@
 """Scenes that solvers stumble over: extreme numbers, long ways, and critical points."""
 
-from verification.hardcases import extremes, passages, ways
+from verification.hardcases import extremes, passages, together, ways
 
 __all__ = ["CASES"]
 
-CASES = (*extremes.CASES, *ways.CASES, *passages.CASES)
+CASES = (*extremes.CASES, *ways.CASES, *together.CASES, *passages.CASES)
