@@ -135,7 +135,7 @@ def densities(sections: Sequence[Section]) -> tuple[Array, Array]:
     )
 
 
-def uniform(mesh: Mesh) -> Masses:
-    """The same mass per length everywhere, no rotary inertia but that of the nodes; one in units of the model."""
-    n = len(mesh.s)
-    return masses(mesh, np.full(n, mesh.units.force / mesh.units.length**2), np.zeros((n, 3)))
+def uniform(mesh: Mesh, gyration: float = 0.0) -> Masses:
+    """The same mass per length everywhere, and a radius of gyration beside that of the nodes; in units of the model."""
+    n, ρA = len(mesh.s), mesh.units.force / mesh.units.length**2
+    return masses(mesh, np.full(n, ρA), np.full((n, 3), ρA * (gyration * mesh.units.length) ** 2))

@@ -51,6 +51,8 @@ SLIGHT = 1e-4
 NONE = 1e-14
 # Accuracy of eigenvalues of which only the sign is asked for.
 ROUGH = 1e-7
+# Radius of gyration, in lengths, by which motions are compared in which a bent rod gives way by turning about itself.
+THICK = 0.1
 # Eigenvalues sought where the tangent is not symmetric, and directions in which a rod gives way otherwise.
 SOUGHT = 4
 
@@ -94,6 +96,7 @@ class Judge:
         heavy = all(section.rhoA is not None for section in sections)
         self._judges = energetic(scene)
         self._masses = masses(mesh, *densities(sections)) if heavy else uniform(mesh)
+        self._thick = uniform(mesh, THICK)
 
     def verdict(self, tangent: Tangent, R: Array) -> Verdict:
         """Judge a state.
@@ -154,8 +157,8 @@ class Judge:
         Returns:
             Largest component of the rate along a mode, root mean square over the rod.
         """
-        M = at_nodes(self._masses.elements(R, tangent), tangent)
-        _, v = _falling(tangent, R, self._masses, SOUGHT)
+        M = at_nodes(self._thick.elements(R, tangent), tangent)
+        _, v = _falling(tangent, R, self._thick, SOUGHT)
         modes = v.real.T.reshape(-1, *M.shape[:2])
         path = rate.reshape(M.shape[:2])
         heavy = np.einsum("nij,nj->ni", M, path)
