@@ -97,7 +97,8 @@ def in_shorter_steps(scenario: Scenario, model: str) -> GrooveSteps:
     )
     ratio = _damping(scenario)
     return GrooveSteps(
-        title=f"{scenario.fibres} fibres, {scenario.kind}" + (f", contact damped by {ratio:.2g}" if ratio else ""),
+        title=f"{scenario.fibres} fibres, {scenario.kind}"
+        + (f", damping ratio of contact {ratio:.2g}" if ratio else ""),
         model=model,
         steps=tuple(each.dt for each in posed),
         t=tuple(float(at) for at in found[0].t[1:]),

@@ -58,8 +58,8 @@ class Aside:
         start: This rank's unknowns there.
         change: By which they change in that direction, with a largest turn of 1 rad.
         rotations: Of this rank's nodes there, shape (n, n_q).
-        increment: By which these turn, shape (n, n_spin).
-        spins: The same as spins, shape (n, n_spin).
+        increment: By which these turn, in the unknowns of an increment, shape (n, n_spin).
+        spins: The same in spins, shape (n, n_spin).
     """
 
     newton: Newton
